@@ -64,10 +64,8 @@ void merge(const MergeOptions& options) {
 void add_merge(CLI::App& program, const std::string& command) {
   Subcommand app(program, "merge", "The results of reproduce or sweep out of their shards.");
   const auto options = std::make_shared<MergeOptions>();
-  options->output.command = command;
   app.option("parts", options->parts, "Directories that --shard … --out wrote").required().type("DIR");
-  add_output(app, options->output);
-  add_report(app, options->output);
+  add_results(app, options->output, command);
   app.option("--out").required();
   app.run([options] { merge(*options); });
 }

@@ -639,13 +639,11 @@ void report(const ReproduceOptions& options, const std::vector<Condition>& condi
 void add_reproduce(CLI::App& program, const std::string& command) {
   Subcommand app(program, "reproduce", "What section VI of the paper says, sentence by sentence.");
   const auto options = std::make_shared<ReproduceOptions>();
-  options->output.command = command;
   app.option("--runs", options->runs, "Monte Carlo runs of each scenario, group and preset").in(2, 100000000);
   add_threads(app, options->sharing.threads);
   add_seed(app, options->seed);
   add_shard(app, options->sharing);
-  add_output(app, options->output);
-  add_report(app, options->output);
+  add_results(app, options->output, command);
   app.run([options] {
     auto all = conditions(*options);
     if (run(*options, all)) report(*options, all);

@@ -222,9 +222,7 @@ class Views {
   /// The numbers of all samples, counted from 0.
   template <class Value>
   std::vector<double> by_sample(const Value& value) const {
-    std::vector<double> values;
-    for (std::size_t k = 0; k < experiment_.samples(); ++k) values.push_back(value(k));
-    return values;
+    return each_below(experiment_.samples(), value);
   }
 
   LineChart chart(std::string title, std::string y_label) const {
@@ -532,19 +530,17 @@ ResultTable rmse_by_sample(const Found& found) {
 
 ResultTable weights_by_sample(const Found& found) {
   const std::vector<std::string> models = model_names(found.experiment.filters);
-  std::vector<ResultColumn> columns = {{.key = "sample"}, {.key = "filter"}};
-  for (const auto& model : models) columns.push_back({.key = "weight_" + model});
-  ResultTable table(columns);
+  ResultTable table;
   for (const Performance& of : found.performances)
     for (std::size_t k = 0; k < found.experiment.samples() && of.filter(); ++k) {
       const std::vector<double> weights = of.told_weights(k);
-      std::vector<Cell> cells = {k + 1, of.name()};
+      std::vector<Field> fields = {{{.key = "sample"}, k + 1}, {{.key = "filter"}, of.name()}};
       for (const auto& model : models) {
         const auto& own = of.filter()->models;
         const auto j = static_cast<std::size_t>(std::ranges::find(own, model) - own.begin());
-        cells.push_back(j < weights.size() ? Cell(weights[j]) : Cell());
+        fields.push_back({{.key = "weight_" + model}, j < weights.size() ? Cell(weights[j]) : Cell()});
       }
-      table.row(std::move(cells));
+      table.row_of(fields);
     }
   return table;
 }
@@ -648,7 +644,6 @@ void simulate_and_report(const SimulateOptions& options) {
 void add_simulate(CLI::App& program, const std::string& command) {
   Subcommand app(program, "simulate", "The paper's experiment (section VI) on simulated radar targets.");
   const auto options = std::make_shared<SimulateOptions>();
-  options->output.command = command;
   app.option("--scenario", options->scenario, "1: fire control radar, 2: surveillance radar").in({1, 2});
   app.option("--group", options->group, "Group of data and model parameters, section VI.C").in({1, 2, 3, 4});
   app.choice(
@@ -660,8 +655,7 @@ void add_simulate(CLI::App& program, const std::string& command) {
   add_threads(app, options->threads);
   add_seed(app, options->seed);
   add_filter_options(app, options->filters);
-  add_output(app, options->output);
-  add_report(app, options->output);
+  add_results(app, options->output, command);
   add_no_chart(app, options->output.no_chart);
   app.run([options] { simulate_and_report(*options); });
 }

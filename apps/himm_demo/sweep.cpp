@@ -618,7 +618,6 @@ Option add_list(Subcommand& app, const std::string& name, std::vector<Value>& va
 void add_sweep(CLI::App& program, const std::string& command) {
   Subcommand app(program, "sweep", "Every filter at its best settings, in many conditions.");
   const auto options = std::make_shared<SweepOptions>();
-  options->output.command = command;
   SweepChoice& choice = options->choice;
   const auto add_factors = [&](const char* name, std::vector<double>& values, const char* meaning) {
     add_list(app, name, values, meaning).number_in(0.05, 20.0);
@@ -645,8 +644,7 @@ void add_sweep(CLI::App& program, const std::string& command) {
   add_seed(app, choice.seed);
   add_threads(app, options->sharing.threads);
   add_shard(app, options->sharing);
-  add_output(app, options->output);
-  add_report(app, options->output);
+  add_results(app, options->output, command);
   app.run([options] {
     SweepWorld world(options->choice);
     const auto add = [&](std::size_t, const Study::Row& row) { world.add(row); };

@@ -492,7 +492,6 @@ void run_classify(const ClassifyOptions& options) {
 
 void add_classify(CLI::App& program, const std::string& command) {
   const auto options = std::make_shared<ClassifyOptions>();
-  options->output.command = command;
   Subcommand app(program, "classify", "Classifies the rows of a file by a model.");
   app.option("model", options->model, "A model that `train` wrote").required().type("MODEL.json");
   app.option("data", options->file, "A headed CSV file with the model's columns, or - for the standard input")
@@ -505,8 +504,7 @@ void add_classify(CLI::App& program, const std::string& command) {
       .number_in(0.0, 1.0);
   app.option("--unseen", options->unseen, "What to do with values and classes that the model does not know")
       .one_of({"refuse", "missing"});
-  add_output(app, options->output);
-  add_report(app, options->output);
+  add_results(app, options->output, command);
   app.run([options] { run_classify(*options); });
 }
 

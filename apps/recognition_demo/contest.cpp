@@ -56,8 +56,7 @@ std::vector<double> numbers_of(const Belief<Kind>& belief) {
 double credit_of(std::span<const double> logs, std::size_t truth) {
   const double greatest = *std::ranges::max_element(logs);
   if (!ties(logs[truth], greatest)) return 0.0;
-  const auto tied = std::ranges::count_if(logs, [greatest](double log) { return ties(log, greatest); });
-  return 1.0 / static_cast<double>(tied);
+  return 1.0 / static_cast<double>(std::ranges::count_if(logs, [=](double log) { return ties(log, greatest); }));
 }
 
 Trace follow(const Contestant& contestant, std::size_t truth, const std::vector<AnyReport>& reports) {

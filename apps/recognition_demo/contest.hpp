@@ -98,9 +98,7 @@ Result result_of_contest(std::string title, const OutputOptions& output,
 
 template <class Variable>
 std::vector<std::string> labels_of(const Variable& variable) {
-  std::vector<std::string> labels;
-  for (std::size_t i = 0; i < variable.size(); ++i) labels.push_back(variable.label(i));
-  return labels;
+  return each_below(variable.size(), [&](std::size_t i) { return variable.label(i); });
 }
 
 /// p(reading|feature): `right` where both have the same place, `wrong` in equal parts for the other readings.

@@ -451,8 +451,7 @@ std::vector<std::string> MissingWords::unmet() const {
 bool MissingWords::among_numbers(std::string_view cell) {
   constexpr std::array words = {"-", "--", ".", "none", "nil", "inf", "-inf", "+inf", "infinity", "-infinity"};
   if (operator()(cell) || says_unknown(trimmed(cell))) return true;
-  const std::string text = lower_case(trimmed(cell));
-  return std::ranges::find(words, text) != words.end();
+  return std::ranges::find(words, lower_case(trimmed(cell))) != words.end();
 }
 
 std::vector<double> ranks_of(const std::vector<double>& numbers) {

@@ -73,10 +73,9 @@ std::vector<std::vector<double>> usage_grid(std::size_t size, const Usage& usage
 }  // namespace
 
 Relation<Random, Random> EsmWorld::equal_usage() const {
-  std::vector<std::vector<double>> rows(platform.size(), std::vector<double>(emitter.size(), 0.0));
-  for (std::size_t c = 0; c < rows.size(); ++c)
-    for (const std::size_t f : carried[c]) rows[c][f] = 1.0 / static_cast<double>(carried[c].size());
-  return {emitter, platform, rows};
+  return {emitter, platform, each_below(platform.size(), [&](std::size_t c) {
+            return spread_over_emitters(*this, c, usage_grid(carried[c].size(), {}).front());
+          })};
 }
 
 Relation<Fuzzy, Fuzzy> EsmWorld::carries(double elsewhere) const {
@@ -130,8 +129,7 @@ Contestant usage_aware_contestant(const EsmWorld& world, const Usage& usage, con
     const auto grid = usage_grid(world.carried[c].size(), usage);
     for (const auto& shares : grid) {
       usages.push_back(spread_over_emitters(world, c, shares));
-      auto& platform = platforms.emplace_back(world.platform.size(), 0.0);
-      platform[c] = 1.0;
+      platforms.emplace_back(world.platform.size(), 0.0)[c] = 1.0;
       prior.push_back(1.0 / static_cast<double>(grid.size() * world.platform.size()));
     }
   }

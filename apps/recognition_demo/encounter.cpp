@@ -142,8 +142,7 @@ TrackReports read_track(const std::string& file, const EncounterData& data, doub
       turn_rate = std::remainder(row.track - rows[k - 1].track, 360.0) / (row.time - rows[k - 1].time);
     const std::array<double, 4> values = {above_ground, row.speed, row.climb, turn_rate};
     result.times_s.push_back(row.time);
-    auto& readings = result.readings.emplace_back();
-    for (std::size_t i = 0; i < values.size(); ++i) readings.push_back(data.bins[i].bin(values[i]));
+    result.readings.push_back(each_below(values.size(), [&](std::size_t i) { return data.bins[i].bin(values[i]); }));
     next = row.time + every_s;
   }
   if (result.readings.empty())
@@ -188,11 +187,8 @@ void publish_draws(const EncounterOptions& options, const EncounterData& data, R
     RandomStream random(draws.seed, run);
     const std::size_t truth = draw_index(random, data.counts.pattern().size());
     std::vector<AnyReport> reports;
-    for (std::size_t k = 0; k < options.reports; ++k) {
-      Readings report;
-      for (const auto& relation : relations) report.push_back(draw(random, relation.row(truth)));
-      reports.emplace_back(std::move(report));
-    }
+    for (std::size_t k = 0; k < options.reports; ++k)
+      reports.emplace_back(each(relations, [&](const auto& relation) { return draw(random, relation.row(truth)); }));
     return Drawn{truth, {std::move(reports)}};
   };
   World world{"What class of aircraft is it?", {{contestants(data.counts), draw_run}}};

@@ -33,9 +33,8 @@ struct Outcome {
     return of_kind(evaluation, [](const auto& e) -> const ConfusionMatrix& { return e.confusion(); });
   }
   Recognised recognised() const {
-    Recognised all{name, {}, confusion().accuracy()};
-    for (std::size_t c = 0; c < confusion().size(); ++c) all.times.push_back(confusion()(c, c));
-    return all;
+    const ConfusionMatrix& rows = confusion();
+    return {name, each_below(rows.size(), [&](std::size_t c) { return rows(c, c); }), rows.accuracy()};
   }
   double ties() const {
     return of_kind(evaluation,
@@ -422,7 +421,6 @@ void run_evaluate(const EvaluateOptions& options) {
 
 void add_evaluate(CLI::App& program, const std::string& command) {
   const auto options = std::make_shared<EvaluateOptions>();
-  options->output.command = command;
   Subcommand app(program, "evaluate", "Cross-validates every kind of classifier on labelled data.");
   add_learning(app, options->file, options->data, options->learning);
   app.option("--folds", options->folds, "Parts of the data, each classified by what the others teach").in(2, 1000000);
@@ -433,8 +431,7 @@ void add_evaluate(CLI::App& program, const std::string& command) {
       .type("COLUMN");
   add_seed(app, options->seed, "of the folds");
   add_threads(app, options->threads);
-  add_output(app, options->output);
-  add_report(app, options->output);
+  add_results(app, options->output, command);
   app.run([options] {
     if (!options->groups.empty() && options->file == "-")
       throw UsageError("--groups reads the data twice: it takes no standard input");

@@ -97,11 +97,7 @@ std::vector<double> joined(const BinCounts& bins) {
   return all;
 }
 
-double knowledge_by(const BinCounts& bins) {
-  double sum = 0.0;
-  for (const auto& counts : bins) sum += knowledge(counts);
-  return sum;
-}
+double knowledge_by(const BinCounts& bins) { return sum_of(each(bins, knowledge)); }
 
 /// What is known from the one of the limits between bins that tells most, more than from none.
 double told_by_a_limit(const BinCounts& bins) {
@@ -152,8 +148,7 @@ void read(const LearnedModel& model, const DataRow& row, Readings& readings) {
   }
 }
 
-void add_learning(CLI::App& program, std::string& file, DataOptions& data, LearningOptions& learning) {
-  Subcommand app(program);
+void add_learning(Subcommand app, std::string& file, DataOptions& data, LearningOptions& learning) {
   app.option("data", file, "A headed CSV file, or - for the standard input; empty cells and ? are missing values")
       .required()
       .type("DATA");

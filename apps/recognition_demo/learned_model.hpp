@@ -49,7 +49,7 @@ LearnedModel learn(
 void read(const LearnedModel& model, const DataRow& row, Readings& readings);
 
 /// The options of learning, and those of the data that are learned from.
-void add_learning(CLI::App& app, std::string& file, DataOptions& data, LearningOptions& learning);
+void add_learning(Subcommand app, std::string& file, DataOptions& data, LearningOptions& learning);
 
 /// The share of what is not known of the class that a column tells, less what it would by chance.
 double told_of_class(const LearnedModel& model, std::size_t column);

@@ -166,18 +166,16 @@ View view_of(const Scenario& scenario, const Condition& condition, const SeenRun
                     .x = counted_from(1, Scenario::samples),
                     .greatest_y = 1.05};
     for (std::size_t j = 0; j < modes; ++j) {
-      chart.curves.push_back({.name = scenario.mode.label(j)});
-      for (std::size_t k = 0; k < Scenario::samples; ++k)
-        chart.curves.back().values.push_back(run.numbers[k * numbers + first + j]);
+      const auto weight = [&](std::size_t k) { return run.numbers[k * numbers + first + j]; };
+      chart.curves.push_back({.name = scenario.mode.label(j), .values = each_below(Scenario::samples, weight)});
     }
     view.panels.emplace_back(with_acceleration(std::move(chart)));
   };
   add_modes("Modes of the IMM", "probability", 1);
   add_modes("Modes of the HIMM", "possibility", 1 + modes);
   const auto reports = condition.draw(run.run).reports;
-  std::vector<Beliefs> beliefs;
-  for (std::size_t i = 0; i < reports.size(); ++i)
-    beliefs.push_back(beliefs_over(condition.contestants[i], reports[i]));
+  const auto beliefs =
+      each_below(reports.size(), [&](std::size_t i) { return beliefs_over(condition.contestants[i], reports[i]); });
   for (Panel& chart :
        support_charts(labels_of(scenario.target), condition.contestants, beliefs,
                       counted_from(Scenario::first_classified, reports.front().size()), "sample", run.truth))

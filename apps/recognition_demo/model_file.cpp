@@ -27,9 +27,7 @@ struct Node {
     if (!json.is_array()) throw error(fmt::format("a list of {}", of_what));
     if (size && json.size() != *size)
       throw InputError("{}: {}: found {} {}, expected {}", file, in_quotes(path), json.size(), of_what, *size);
-    std::vector<Node> result;
-    for (std::size_t i = 0; i < json.size(); ++i) result.push_back({json[i], file, fmt::format("{}[{}]", path, i)});
-    return result;
+    return each_below(json.size(), [&](std::size_t i) { return Node{json[i], file, fmt::format("{}[{}]", path, i)}; });
   }
   std::string text() const {
     if (!json.is_string() || json.get<std::string>().empty()) throw error("a text that is not empty");

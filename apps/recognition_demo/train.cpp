@@ -48,9 +48,8 @@ void run_train(const TrainOptions& options) {
 
 }  // namespace
 
-void add_train(CLI::App& program, const std::string& command) {
+void add_train(CLI::App& program, const std::string&) {
   const auto options = std::make_shared<TrainOptions>();
-  options->output.command = command;
   Subcommand app(program, "train", "Learns a model from labelled data.");
   add_learning(app, options->file, options->data, options->learning);
   app.option("--model", options->model, "The model to write").required().type("MODEL.json");

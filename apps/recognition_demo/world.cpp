@@ -118,14 +118,12 @@ std::size_t draw(RandomStream& random, std::span<const double> probabilities) {
   return last;
 }
 
-void add_draws(CLI::App& app, DrawOptions& options, const std::string& command, std::size_t runs) {
-  options.output.command = command;
+void add_draws(Subcommand app, DrawOptions& options, const std::string& command, std::size_t runs) {
   options.runs = runs;
-  Subcommand(app).option("--runs", options.runs, "Simulated runs").in(2, 100000000);
+  app.option("--runs", options.runs, "Simulated runs").in(2, 100000000);
   add_seed(app, options.seed);
   add_threads(app, options.threads);
-  add_output(app, options.output);
-  add_report(app, options.output);
+  add_results(app, options.output, command);
 }
 
 void run_world(const World& world, const DrawOptions& options, ResultFiles& files) {

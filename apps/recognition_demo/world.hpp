@@ -18,7 +18,7 @@ struct DrawOptions {
   int threads = 0;  ///< 0: as many as the machine has
   OutputOptions output;
 };
-void add_draws(CLI::App& app, DrawOptions& options, const std::string& command, std::size_t runs);
+void add_draws(Subcommand app, DrawOptions& options, const std::string& command, std::size_t runs);
 
 /// One run: the true pattern, and the reports about it.
 struct Drawn {

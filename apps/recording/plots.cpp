@@ -84,8 +84,7 @@ void see_by_radar(Row& row, const std::optional<Position>& position, int axes, c
   row.plot = AnyPlot::polar(row.plot.time, seen, std::array{nan, nan, nan}, at);
 }
 
-void add_recording(CLI::App& program, RecordingOptions& recording, RadarOptions& radar) {
-  Subcommand app(program);
+void add_recording(Subcommand app, RecordingOptions& recording, RadarOptions& radar) {
   app.list("--columns", recording.columns, "Headers that stand for these names, as time_s=t,x_m=east")
       .type("NAME=HEADER,…");
   app.option("--time-format", recording.time_format,

@@ -51,7 +51,7 @@ void see_by_radar(Row& row, const std::optional<Position>& position, int axes, c
 
 /// The options that say what a recording's columns mean, and which of its rows count; and --radar and --radar-at. All
 /// outlive the app.
-void add_recording(CLI::App& app, RecordingOptions& recording, RadarOptions& radar);
+void add_recording(Subcommand app, RecordingOptions& recording, RadarOptions& radar);
 
 /// Throws UsageError where a radar cannot measure what a recording holds.
 void refuse_radar(const RadarOptions& radar, const RecordingReader& recording);

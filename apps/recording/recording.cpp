@@ -130,7 +130,7 @@ void RecordingReader::find_columns() {
   const auto& azimuth = column(Role::polar, 1);
   if (azimuth && azimuth->unit->from_north) {
     if (options_.azimuth_from_north == false)
-      throw UsageError("--azimuth-from east contradicts the column {}", csv_.names()[azimuth->index]);
+      throw UsageError("--azimuth-from east contradicts the column {}", header_of(place_of(Role::polar) + 1));
     from_north_ = true;
   }
   const auto are_there = [&](Role role) { return has(role) && has(role, 1); };
@@ -153,7 +153,7 @@ void RecordingReader::find_columns() {
   axes_ = polar() ? axes_of(Role::polar) : geodetic() ? axes_of(Role::place) : cartesian ? axes_of(Role::position) : 2;
   if (!cartesian && !geodetic() && !has(Role::polar, 1))
     axes_ = has_course ? (has(Role::velocity, 2) ? 3 : 2) : axes_of(Role::velocity);
-  if (polar() && (cartesian || geodetic()) && axes_of(geodetic() ? Role::place : Role::position) != axes_)
+  if (polar() && (cartesian || geodetic()) && axes_of(where()) != axes_)
     throw InputError(
         "{}:1: found {}, expected both {} and elevation_deg, or none of them; give all sensors of a file as many axes",
         file(), fmt::join(csv_.names(), ", "), geodetic() ? "altitude_m" : "z_m");
@@ -176,9 +176,7 @@ void RecordingReader::find_columns() {
   for (const Role role : {Role::sensor_position, Role::sensor_place})
     drop(role, (polar() || bearings()) && !options_.simulated && are_there(role) ? axes : 0);
   for (std::size_t q = 0; q < quantities.size(); ++q) {
-    if (!columns_[q] || std::ranges::find(mapping_, csv_.names()[columns_[q]->index],
-                                          [](const auto& mapped) { return mapped.second; }) != mapping_.end())
-      continue;
+    if (!columns_[q] || is_mapped(header_of(q))) continue;
     for_each_header(quantities[q], [&](const std::string& header, const Unit& unit) {
       const bool is_angle = quantities[q].units.front().suffix == "deg";
       const bool is_mirrored = q == place_of(Role::polar) + 1 && unit.from_north != from_north_;
@@ -222,9 +220,6 @@ void RecordingReader::refuse_other_kinds(bool cartesian, bool time_known, bool h
 
 /// The first column that may be a coordinate, but for its unit.
 std::optional<std::string> RecordingReader::without_unit() const {
-  const auto is_mapped = [&](const std::string& name) {
-    return std::ranges::any_of(mapping_, [&](const auto& mapped) { return mapped.second == name; });
-  };
   for (const std::string& name : csv_.names())
     if (const Quantity* const like = is_mapped(name) ? nullptr : without_known_unit(name))
       if (like->role == Role::position || like->role == Role::place || like->role == Role::polar)
@@ -238,7 +233,6 @@ bool RecordingReader::next(Row& row) {
     if (!csv_.next(row_)) return false;
   } while (!std::ranges::all_of(select_, is_selected) || !take_time(row));
   row.roll_deg = roll_ ? number_in(*roll_) : std::nullopt;
-  row.sensor = sensor_ ? trimmed(row_[*sensor_]) : std::string_view{};
   if (sensor_ && row.sensor.empty()) throw row_.error(*sensor_, "the name of the row's sensor", "fill the cell");
   take_numbers();
   if (said(Role::course).value_or(0.0) < 0.0 && said(Role::course, 1).value_or(0.0) < 0.0) ++negative_speeds_;
@@ -250,8 +244,7 @@ bool RecordingReader::next(Row& row) {
   row.sensor_at = counts(Role::sensor_position) ? position(Role::sensor_position) : std::nullopt;
   row.sensor_place = counts(Role::sensor_place) ? std::optional(place(Role::sensor_place)) : std::nullopt;
   if (!plot) senseless_.add(row.line);
-  const Role where = geodetic() ? Role::place : Role::position;
-  row.twice = axes_ > 1 && said(where) == said(where, 1) ? said(where) : std::nullopt;
+  row.twice = axes_ > 1 && said(where()) == said(where(), 1) ? said(where()) : std::nullopt;
   for (std::size_t i = 0; i < 2 && geodetic(); ++i) {  // whose hemisphere may be in one of the next two columns
     const auto first = columns_[place_of(Role::place) + i]->index + 1;
     for (std::size_t at = first; at < std::min(first + 2, row_.size()); ++at)
@@ -276,10 +269,11 @@ std::optional<double> RecordingReader::time_of(const std::string& text, bool& of
   return parse_timestamp(text);
 }
 
-/// Takes the row's line, track and time; false if the row is to be skipped for its time.
+/// Takes the row's line, track, sensor and time; false if the row is to be skipped for its time.
 bool RecordingReader::take_time(Row& row) {
   row.line = row_.line();
   row.track = track_ ? trimmed(row_[*track_]) : std::string_view{};
+  row.sensor = sensor_ ? trimmed(row_[*sensor_]) : std::string_view{};
   if (track_ && row.track.empty())
     throw row_.error(*track_, "what tells its track from others",
                      rows_ == 0 ? "fill the cell, or drop the line, if it holds units" : "fill the cell");
@@ -361,16 +355,15 @@ double RecordingReader::on_its_day(const Row& row, double time_of_day) {
 
 /// Whether the time is not after that of the track's row before; several sensors may measure at one time.
 bool RecordingReader::refused_time(const Row& row, double time) {
-  const std::string sensor{sensor_ ? trimmed(row_[*sensor_]) : std::string_view{}};
   const auto [found, first] = last_.try_emplace(row.track);
   Last& last = found->second;
   if (first || time > last.time) {
-    last = {time, {sensor}, row.line};
+    last = {time, {row.sensor}, row.line};
     return false;
   }
-  const bool spoke = std::ranges::find(last.sensors, sensor) != last.sensors.end();
+  const bool spoke = std::ranges::find(last.sensors, row.sensor) != last.sensors.end();
   if (!(time == last.time) || spoke) return true;
-  last.sensors.push_back(sensor);
+  last.sensors.push_back(row.sensor);
   return false;
 }
 
@@ -453,12 +446,11 @@ std::vector<std::string> RecordingReader::rivals() const {
     if (rows == 0 ||
         !(is_angle ? mean > most_degrees : apart > most_of_both * size && (!is_height || mean > most_metres)))
       continue;
-    const auto& taken = csv_.names()[columns_[q]->index];
     sentences.push_back(
         fmt::format("columns {} and {} differ by {:.3g}{} on the average; {} was taken: see which is right, and leave "
                     "out the other",
-                    taken, csv_.names()[column.index], mean,
-                    is_angle ? "°" : fmt::format(" {}", quantities[q].units.front().words), taken));
+                    header_of(q), csv_.names()[column.index], mean,
+                    is_angle ? "°" : fmt::format(" {}", quantities[q].units.front().words), header_of(q)));
   }
   return sentences;
 }
@@ -529,10 +521,9 @@ Geodetic RecordingReader::place(Role role) const {
 
 /// What the row measured; nothing if it has a number that stands for none.
 std::optional<AnyPlot> RecordingReader::measured() {
-  const Role where = geodetic() ? Role::place : Role::position;
-  const bool is_located = says(where), is_moving = says(Role::velocity) || says(Role::course);
+  const bool is_located = says(where()), is_moving = says(Role::velocity) || says(Role::course);
   const bool is_seen = says(Role::polar) && (polar() || !is_located);
-  if (is_senseless(where)) return std::nullopt;
+  if (is_senseless(where())) return std::nullopt;
   for (const Role role : {Role::polar, Role::sensor_position, Role::sensor_place})
     if (is_seen && is_senseless(role)) return std::nullopt;
   if (is_located && is_seen)
@@ -575,8 +566,7 @@ AnyPlot RecordingReader::radar_plot() const {
 
 /// The position, as far as the row has it, and the velocity; or that nothing was measured.
 AnyPlot RecordingReader::components() const {
-  const Role where = geodetic() ? Role::place : Role::position;
-  if (geodetic() && says(where)) place(where);  // it may lack its altitude, another position any coordinate
+  if (geodetic() && says(where())) place(where());  // it may lack its altitude, another position any coordinate
   std::vector<int> places;
   std::vector<double> z, variances;
   const auto add = [&](std::size_t place, double number, double sigma) {
@@ -586,7 +576,7 @@ AnyPlot RecordingReader::components() const {
   };
   const double sigma = said(Role::sigma_all_axes).value_or(nan);
   for (std::size_t i = 0; i < 3; ++i)
-    if (said(where, i)) add(i, *said(where, i), said(Role::sigma_position, i).value_or(sigma));
+    if (said(where(), i)) add(i, *said(where(), i), said(Role::sigma_position, i).value_or(sigma));
   const auto axes = static_cast<std::size_t>(axes_);
   if (const auto speed = said(Role::course), course = said(Role::course, 1); speed && course) {
     if (!(std::abs(*course) <= 360.0)) throw error(Role::course, 1, "degrees from −360 to 360", "correct the cell");
@@ -636,7 +626,7 @@ std::vector<double> RecordingReader::covariance(const std::vector<int>& places, 
 std::vector<std::string> RecordingReader::nines() const {
   std::vector<std::string> sentences;
   for (std::size_t q = 0; q < quantities.size(); ++q)
-    if (const std::string doubt = columns_[q] ? nines_[q].doubt(csv_.names()[columns_[q]->index]) : ""; !doubt.empty())
+    if (const std::string doubt = columns_[q] ? nines_[q].doubt(header_of(q)) : ""; !doubt.empty())
       sentences.push_back(doubt);
   return sentences;
 }
@@ -651,17 +641,15 @@ std::string RecordingReader::taken() const {
   for (std::size_t q = 0; q < quantities.size(); ++q) {
     if (!columns_[q]) continue;
     const Quantity& quantity = quantities[from_zenith_ && q == place_of(Role::polar) + 2 ? q + 2 : q];
-    std::string part =
-        fmt::format("{} in {}{}", csv_.names()[columns_[q]->index], columns_[q]->unit->words, quantity.note);
-    const std::string& header = csv_.names()[columns_[q]->index];
+    std::string part = fmt::format("{} in {}{}", header_of(q), columns_[q]->unit->words, quantity.note);
     for (const auto units : {std::span<const Unit>(units::lengths), std::span<const Unit>(units::speeds),
                              std::span<const Unit>(units::angles), std::span<const Unit>(units::foreign)})
       for (const Unit& other : units)
-        if (other.words != columns_[q]->unit->words && says_unit(header, other.suffix) &&
+        if (other.words != columns_[q]->unit->words && says_unit(header_of(q), other.suffix) &&
             quantity.role != Role::covariance)
           part += fmt::format(", as --columns says, and not in {}", other.words);
     const bool is_height = q == place_of(Role::place) + 2 || q == place_of(Role::position) + 2;
-    if (is_height && lower_case(header).find("depth") != header.npos)
+    if (is_height && lower_case(header_of(q)).find("depth") != std::string::npos)
       part += ", as --columns says, and so upwards, although it is called a depth";
     if (q == place_of(Role::polar) + 1)
       part += fmt::format(" {}{}", from_north_ ? "clockwise from north" : "counter-clockwise from east",
@@ -684,7 +672,7 @@ std::string RecordingReader::other_half(Role role) const {
 }
 
 std::string RecordingReader::why_unused(std::size_t q) const {
-  if (columns_[q]) return csv_.names()[columns_[q]->index] + " says it";
+  if (columns_[q]) return header_of(q) + " says it";
   const Role role = quantities[q].role;
   const bool velocity = !options_.velocity && (role == Role::velocity || role == Role::course);
   const std::string other = other_half(role), needs = "needs " + other;

@@ -200,6 +200,13 @@ class RecordingReader {
 
   std::optional<Column>& column(Role role, std::size_t i = 0) { return columns_[place_of(role) + i]; }
   bool has(Role role, std::size_t i = 0) const { return columns_[place_of(role) + i].has_value(); }
+  /// What its positions stand in.
+  Role where() const { return geodetic() ? Role::place : Role::position; }
+  const std::string& header_of(std::size_t quantity) const { return csv_.names()[columns_[quantity]->index]; }
+  /// Whether --columns names this header.
+  bool is_mapped(std::string_view header) const {
+    return std::ranges::any_of(mapping_, [&](const auto& mapped) { return mapped.second == header; });
+  }
   int axes_of(Role role) const;
   void drop(Role role, std::size_t from = 0);
   std::optional<std::size_t> find(std::string_view name) const;

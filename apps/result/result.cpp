@@ -33,32 +33,29 @@ std::size_t OutputOptions::width() const {
   return wide ? any_width : std::max(terminal_width, columns_of(STDOUT_FILENO));
 }
 
-void add_quiet(CLI::App& app, bool& quiet) { Subcommand(app).flag("--quiet", quiet, "No progress bar"); }
+void add_quiet(Subcommand app, bool& quiet) { app.flag("--quiet", quiet, "No progress bar"); }
 
-void add_wide(CLI::App& app, bool& wide) {
-  Subcommand(app).flag("--wide", wide,
-                       "Tables with one line a row, however long; else they take the columns of the terminal");
+void add_wide(Subcommand app, bool& wide) {
+  app.flag("--wide", wide, "Tables with one line a row, however long; else they take the columns of the terminal");
 }
 
-void add_output(CLI::App& app, OutputOptions& options) {
-  Subcommand(app).option("--out", options.out, "Directory for the result files").type("DIR");
+void add_output(Subcommand app, OutputOptions& options) {
+  app.option("--out", options.out, "Directory for the result files").type("DIR");
   add_quiet(app, options.quiet);
   add_wide(app, options.wide);
 }
 
-void add_report(CLI::App& app, OutputOptions& options) {
-  Subcommand(app)
-      .option("--report", options.report, "File for the charts, a page for a browser [report.html in DIR]")
-      .type("FILE");
-  Subcommand(app)
-      .option("--plots", options.plots, "Directory for the same charts as SVG and PDF, drawn by gnuplot")
+void add_results(Subcommand app, OutputOptions& options, const std::string& command) {
+  options.command = command;
+  add_output(app, options);
+  app.option("--report", options.report, "File for the charts, a page for a browser [report.html in DIR]").type("FILE");
+  app.option("--plots", options.plots, "Directory for the same charts as SVG and PDF, drawn by gnuplot")
       .type("DIR")
       .check([](const std::string&) { return need_gnuplot(), ""; });  // throws, before any work
 }
 
-void add_no_chart(CLI::App& app, bool& no_chart) {
-  Subcommand(app).flag("--no-chart", no_chart,
-                       "No charts at the end, where the output is a terminal of 80 columns or more");
+void add_no_chart(Subcommand app, bool& no_chart) {
+  app.flag("--no-chart", no_chart, "No charts at the end, where the output is a terminal of 80 columns or more");
 }
 
 void refuse_to_overwrite(const std::string& option, const std::string& file, const std::vector<std::string>& inputs) {

@@ -23,12 +23,12 @@ struct OutputOptions {
   std::size_t width() const;
 };
 
-/// --out, --quiet and --wide; --report and --plots; --no-chart.
-void add_output(CLI::App& app, OutputOptions& options);
-void add_report(CLI::App& app, OutputOptions& options);
-void add_no_chart(CLI::App& app, bool& no_chart);
-void add_quiet(CLI::App& app, bool& quiet);
-void add_wide(CLI::App& app, bool& wide);
+/// --out, --quiet and --wide; the same with --report and --plots, and the command for the record; --no-chart.
+void add_output(Subcommand app, OutputOptions& options);
+void add_results(Subcommand app, OutputOptions& options, const std::string& command);
+void add_no_chart(Subcommand app, bool& no_chart);
+void add_quiet(Subcommand app, bool& quiet);
+void add_wide(Subcommand app, bool& wide);
 
 /// The result files of a run. Without --out nothing is written but the report and its pictures, if --report and --plots
 /// ask for them. Directories and report are begun first, so that a bad place is known before the work; the files appear

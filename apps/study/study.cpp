@@ -90,13 +90,12 @@ bool run(const Study& study, const Sharing& sharing, const OutputOptions& option
   }
 }
 
-void add_shard(CLI::App& app, Sharing& sharing) {
-  Subcommand(app)
-      .option(
-          "--shard", [&sharing](const std::string& text) { read_shard(text, sharing); },
-          "Only a share of the work, 1/N … N/N, for N machines; see merge")
+void add_shard(Subcommand app, Sharing& sharing) {
+  app.option(
+         "--shard", [&sharing](const std::string& text) { read_shard(text, sharing); },
+         "Only a share of the work, 1/N … N/N, for N machines; see merge")
       .type("I/N");
-  Subcommand(app).flag("--finished", sharing.finished, "").hidden();
+  app.flag("--finished", sharing.finished, "").hidden();
 }
 
 }  // namespace sigmax::apps

@@ -45,6 +45,6 @@ bool run(const Study& study, const Sharing& sharing, const OutputOptions& option
          const std::function<void(std::size_t cell, const Study::Row& row)>& add);
 
 /// --shard, "1/4" … "4/4"; and --finished, which help does not show.
-void add_shard(CLI::App& app, Sharing& sharing);
+void add_shard(Subcommand app, Sharing& sharing);
 
 }  // namespace sigmax::apps

@@ -289,18 +289,20 @@ void run_again(const std::vector<AddSubcommand>& subcommands, const std::string&
   app.parse(arguments);
 }
 
-void add_seed(CLI::App& app, std::uint64_t& seed, const std::string& of_what) {
+void add_seed(Subcommand app, std::uint64_t& seed, const std::string& of_what) {
   const auto check = [](const std::string& text) -> std::string {
     std::uint64_t number = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
     if (error == std::errc{} && end == text.data() + text.size()) return "";
     return fmt::format("found {}, expected a whole number from 0 to 18446744073709551615", in_quotes(text));
   };
-  app.add_option("--seed", seed, "Seed " + of_what)->check(CLI::Validator(check, ""))->capture_default_str();
+  app.option("--seed", seed, "Seed " + of_what).check(check);
 }
 
-void add_threads(CLI::App& app, int& threads) {
-  app.add_option("--threads", threads, "Threads; the results do not depend on it [all]")->check(CLI::Range(1, 4096));
+void add_threads(Subcommand app, int& threads) {
+  app.option("--threads", threads, "Threads; the results do not depend on it [all]")
+      .in(1, 4096)
+      .text("INT:INT in [1 - 4096]");
 }
 
 int run_command_line(const ProgramOutline& outline, int argc, char** argv) {

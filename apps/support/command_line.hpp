@@ -77,9 +77,8 @@ class Option {
 class Subcommand {
  public:
   Subcommand(CLI::App& program, const std::string& name, const std::string& meaning);
-  explicit Subcommand(CLI::App& app) : app_(app) {}
-
-  operator CLI::App&() const { return app_; }
+  /// One that is there.
+  Subcommand(CLI::App& app) : app_(app) {}
 
   /// An option, or an argument if its name has no dashes, whose value is an int, a size_t, a double, a string, one of
   /// these that may be missing (std::optional), or a vector. What a number or a string is now, the help shows as its
@@ -124,10 +123,10 @@ void run_again(const std::vector<AddSubcommand>& subcommands, const std::string&
                std::vector<std::string> arguments);
 
 /// --seed, which refuses what is no whole number below 2^64.
-void add_seed(CLI::App& app, std::uint64_t& seed, const std::string& of_what = "of the random numbers");
+void add_seed(Subcommand app, std::uint64_t& seed, const std::string& of_what = "of the random numbers");
 
 /// --threads; zero stands for all of them.
-void add_threads(CLI::App& app, int& threads);
+void add_threads(Subcommand app, int& threads);
 
 struct ProgramOutline {
   std::string name;

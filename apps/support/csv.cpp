@@ -111,9 +111,7 @@ InputError CsvRow::error(std::size_t column, std::string_view expected, std::str
 }
 
 std::string listed(std::span<const std::string> names, std::size_t most) {
-  std::string text;
-  for (const std::string& name : names.first(std::min(most, names.size())))
-    text += (text.empty() ? "" : ", ") + csv_field(name);
+  const std::string text = list_of(names.first(std::min(most, names.size())), csv_field);
   return names.size() > most ? text + ", …" : text;
 }
 

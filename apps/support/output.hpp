@@ -3,9 +3,6 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
-#include <utility>
-
-#include <fmt/core.h>
 
 namespace sigmax::apps {
 
@@ -25,11 +22,6 @@ class AtomicFile {
   const std::filesystem::path& path() const { return path_; }
 
   void write(std::string_view text);
-
-  template <class... Arguments>
-  void print(fmt::format_string<Arguments...> format, Arguments&&... arguments) {
-    write(fmt::format(format, std::forward<Arguments>(arguments)...));
-  }
 
   /// Brings to the disk what was written so far: the failures that a commit can have come before it.
   void store();

@@ -64,7 +64,15 @@ auto each(const Range& range, const Of& of) {
   return results;
 }
 
-/// The same as words with commas between.
+/// What a function tells of each of 0, 1, … below a number.
+template <class Of>
+auto each_below(std::size_t end, const Of& of) {
+  std::vector<std::remove_cvref_t<std::invoke_result_t<const Of&, std::size_t>>> results;
+  for (std::size_t i = 0; i < end; ++i) results.push_back(of(i));
+  return results;
+}
+
+/// What a function or a member tells of each of several things, as words with commas between.
 template <class Range, class Of = std::identity>
 std::string list_of(const Range& range, const Of& of = {}) {
   return fmt::format("{}", fmt::join(each(range, of), ", "));

@@ -18,7 +18,7 @@ TEST_F(AtomicFiles, AppearsWholeOnCommit) {
   const std::string large(200'000, 'x');
   AtomicFile file{path};
   file.write("a,");
-  file.print("{},{}\n", 0.1, 5);
+  file.write("0.1,5\n");
   file.write(large);
   EXPECT_FALSE(fs::exists(path));
   EXPECT_EQ(file.path(), path);

@@ -399,8 +399,7 @@ std::vector<FilterSettings> filters_for(RecordingOptions& recording, const Filte
   return filters;
 }
 
-void add_filter_options(CLI::App& program, FilterOptions& options) {
-  Subcommand app(program);
+void add_filter_options(Subcommand app, FilterOptions& options) {
   app.option("--config", options.config, "Settings in TOML").type("FILE.toml");
   app.option("--set", options.sets, "One setting, as lift=unbiased; may be repeated").type("KEY=VALUE").repeated();
   app.flag("--print-config", options.print_config, "Print the settings in force and stop");

@@ -145,10 +145,8 @@ FilterSettings read_filter(const Settings& settings, FilterSettings filter) {
   read_sensor(settings, filter.accuracy);
   refuse_bad_combinations(settings, filter);
   const Settings sensors = settings.sub("sensor");
-  for (const auto& name : sensors.names()) {
-    Accuracy& own = filter.sensors.emplace(name, filter.accuracy).first->second;
-    read_sensor(sensors.sub(name), own);
-  }
+  for (const auto& name : sensors.names())
+    read_sensor(sensors.sub(name), filter.sensors.emplace(name, filter.accuracy).first->second);
   return filter;
 }
 

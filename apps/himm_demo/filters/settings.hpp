@@ -164,7 +164,7 @@ struct FilterOptions {
   std::vector<std::string> sets;
   bool print_config = false;
 };
-void add_filter_options(CLI::App& app, FilterOptions& options);
+void add_filter_options(Subcommand app, FilterOptions& options);
 
 /// The filters that they name for a recording: a radar is as accurate as the simulated one, if there is one. What they
 /// know the accuracy of, velocities and range rates, is asked of the recording. Throws InputError for what cannot be,

@@ -135,8 +135,7 @@ std::vector<double> usual_bounds(const Plan& plan, double times) {
 }  // namespace
 
 std::vector<const TrackPage::Named*> TrackPage::longest_first() const {
-  std::vector<const Named*> all;
-  for (const Named& one : tracks_) all.push_back(&one);
+  auto all = each(tracks_, [](const Named& one) { return &one; });
   std::ranges::stable_sort(all, std::greater<>(), [](const Named* one) { return one->second.estimates; });
   return all;
 }

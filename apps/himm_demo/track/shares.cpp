@@ -44,9 +44,7 @@ void TrackShares::run(const std::function<void()>& all) {
   } catch (const std::exception& error) {
     if (alone()) throw;
     if (first()) ranks_->abort(error);
-    News last;
-    last.failure = error.what();
-    tell(std::move(last));
+    tell({.said = {}, .tallies = {}, .histories = {}, .failure = error.what()});
     send();
   }
 }

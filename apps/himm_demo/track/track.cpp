@@ -441,12 +441,10 @@ void track_and_report(TrackOptions options, TrackShares& shares) {
     return;
   }
   ResultFiles files(options.output);
-  TrackSinks sinks{.files = &files};
   std::optional<TrackPage> tracks;
   const bool charts = shares.alone() && charts_on_terminal(options.output);  // mpirun's output is no such place
   if (files.report_wanted() || charts) tracks.emplace(filters, recording, options.radar.sigma || recording.has_truth());
-  sinks.page = tracks ? &*tracks : nullptr;
-  const TrackOutcome outcome = run_track(options, recording, filters, sinks, shares);
+  const TrackOutcome outcome = run_track(options, recording, filters, {&files, tracks ? &*tracks : nullptr}, shares);
   if (tracks) tracks->finish(outcome);
   Result result(options.output);
   const auto warnings = Reporter(options, recording, filters, outcome, result).made();
@@ -462,7 +460,6 @@ void track_and_report(TrackOptions options, TrackShares& shares) {
 void add_track(CLI::App& program, const std::string& command) {
   Subcommand app(program, "track", "Tracks the targets of a recording, a headed CSV file.");
   const auto options = std::make_shared<TrackOptions>();
-  options->output.command = command;
   app.option("file", options->recording.file, "A recording as below; - is the standard input").required();
   add_recording(app, options->recording, options->radar);
   app.option("--predict-to", options->predict_to_text, "A time up to which each target is predicted after its last row")
@@ -471,8 +468,7 @@ void add_track(CLI::App& program, const std::string& command) {
            "Also write times, seconds since 1970, as dates, 2016-01-12T13:02:11.218Z");
   add_seed(app, options->seed);
   add_filter_options(app, options->filters);
-  add_output(app, options->output);
-  add_report(app, options->output);
+  add_results(app, options->output, command);
   add_no_chart(app, options->output.no_chart);
   app.run([options] {
     TrackShares shares;
