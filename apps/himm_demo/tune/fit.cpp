@@ -65,9 +65,8 @@ constexpr double usual_rejections = 3.0;  // in a row, as a start wants
 
 constexpr double usual_sojourn_steps = 20.0;  // as .95 on the diagonal
 
-constexpr std::array factors = {0.03, 0.1, 0.3, 3.0, 10.0, 30.0};       // by which a number may be off at first
-constexpr std::array turn_rates = {-10.0, -3.0, -1.0, 1.0, 3.0, 10.0};  // that a turn may have at first, in °/s
-static_assert(factors.size() == turn_rates.size());
+constexpr std::array factors = {0.03, 0.1, 0.3, 3.0, 10.0, 30.0};          // by which a number may be off at first
+constexpr std::array turns = {1.0, 2.0, 3.0, 5.0, 8.0, 12.0, 20.0, 30.0};  // that a rate may be at first, in °/s
 constexpr std::size_t most_sweeps = 4;
 
 /// How often a search of n numbers may ask.
@@ -318,17 +317,25 @@ class Fitter {
     scan(best, with_sensors);
     if (!with_sensors) return best;
     search_numbers(best, 0);
-    constexpr double nearly_exact = 1e-3;
-    for (const bool sensors : {true, false}) {
+    learn(best);
+    const auto also_from = [&](bool sensors, const std::string& alone) {
+      constexpr double nearly_exact = 1e-3;
       FilterSettings exact = settings;
       for (const FreeNumber& number : free_numbers(settings, data_, options_))
-        if (number.sensor == sensors && number.noise) number.set(exact, nearly_exact * number.parameter.start);
+        if (number.sensor == sensors && number.noise && (alone.empty() || number.parameter.name == alone))
+          number.set(exact, nearly_exact * number.parameter.start);
       Fitted other = from(exact);
       if (sensors) scan(other, false);
       scan(other, true);
       search_numbers(other, 0);
+      learn(other);
       keep_better(best, std::move(other));
-    }
+    };
+    also_from(true, "");
+    also_from(false, "");
+    if (settings.models.size() > 2)  // which of them is quiet, a search does not find out
+      for (const FreeNumber& number : free_numbers(settings, data_, options_))
+        if (number.noise && !number.sensor) also_from(false, number.parameter.name);
     return best;
   }
 
@@ -551,13 +558,16 @@ class Fitter {
       for (FreeNumber& number : numbers) {
         const FilterSettings base = best.settings;
         double taken = number.parameter.start;
-        for (std::size_t i = 0; i < factors.size(); ++i) {
-          const bool turns = number.parameter.scale == Scale::linear;
-          const double other = turns ? turn_rates[i] : factors[i] * number.parameter.start;
+        const auto try_number = [&](double other) {
           FilterSettings tried = base;
           number.set(tried, other);
           if (take_if_better(best, tried)) taken = other;
-        }
+        };
+        if (number.parameter.scale == Scale::linear)
+          for (const double turn : turns)
+            for (const double rate : {turn, -turn}) try_number(rate);
+        else
+          for (const double factor : factors) try_number(factor * number.parameter.start);
         if (!number.relative) number.parameter.start = taken;
         progress_.advance(factors.size());
       }
