@@ -425,14 +425,16 @@ class Fitter {
   double as_lost(const Fitted& at, const std::vector<FreeNumber>& numbers, const std::vector<double>& ridge,
                  double error) const {
     constexpr double wider = 1.25;
-    const double most = at.fitted + 2.0 / static_cast<double>(data_.measurements);
+    const auto loss = [&](double off) {
+      std::vector<double> offsets = ridge;
+      for (double& offset : offsets) offset *= off;
+      return value(moved(at.settings, numbers, offsets));
+    };
+    double least = at.fitted;  // or near it, where a search ended too early
+    for (const double share : {-1.0, -0.5, 0.5, 1.0}) least = std::min(least, loss(share * error));
+    const double most = least + 2.0 / static_cast<double>(data_.measurements);
     for (const double side : {2.0, -2.0})
-      while (options_.objective != Objective::rmse && error < 1.0) {
-        std::vector<double> offsets = ridge;
-        for (double& offset : offsets) offset *= side * error;
-        if (!(value(moved(at.settings, numbers, offsets)) < most)) break;
-        error *= wider;
-      }
+      while (options_.objective != Objective::rmse && error < 1.0 && loss(side * error) < most) error *= wider;
     return error;
   }
 
