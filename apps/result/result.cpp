@@ -39,15 +39,11 @@ void add_wide(Subcommand app, bool& wide) {
   app.flag("--wide", wide, "Tables with one line a row, however long; else they take the columns of the terminal");
 }
 
-void add_output(Subcommand app, OutputOptions& options) {
+void add_results(Subcommand app, OutputOptions& options, const std::string& command) {
+  options.command = command;
   app.option("--out", options.out, "Directory for the result files").type("DIR");
   add_quiet(app, options.quiet);
   add_wide(app, options.wide);
-}
-
-void add_results(Subcommand app, OutputOptions& options, const std::string& command) {
-  options.command = command;
-  add_output(app, options);
   app.option("--report", options.report, "File for the charts, a page for a browser [report.html in DIR]").type("FILE");
   app.option("--plots", options.plots, "Directory for the same charts as SVG and PDF, drawn by gnuplot")
       .type("DIR")

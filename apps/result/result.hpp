@@ -23,8 +23,7 @@ struct OutputOptions {
   std::size_t width() const;
 };
 
-/// --out, --quiet and --wide; the same with --report and --plots, and the command for the record; --no-chart.
-void add_output(Subcommand app, OutputOptions& options);
+/// --out, --quiet, --wide, --report and --plots, and the command for the record; --no-chart.
 void add_results(Subcommand app, OutputOptions& options, const std::string& command);
 void add_no_chart(Subcommand app, bool& no_chart);
 void add_quiet(Subcommand app, bool& quiet);

@@ -69,7 +69,7 @@ void squeeze(Block& block, std::size_t width) {
 
 /// The lines of one row, or of the headers, which stand at its bottom.
 void append(std::string& text, const Block& block, const std::vector<Lines>& cells, bool at_the_bottom) {
-  const std::size_t height = std::ranges::max(each(cells, &Lines::size));
+  const std::size_t height = cells.empty() ? 0 : std::ranges::max(each(cells, &Lines::size));
   for (std::size_t k = 0; k < height; ++k) {
     std::string line;
     for (std::size_t i = 0; i < block.size(); ++i) {

@@ -17,7 +17,6 @@ Given given;
 
 void add(CLI::App& program, const std::string& command, const std::string& name) {
   const auto options = std::make_shared<Given>();
-  options->output.command = command;
   Subcommand app(program, name,
                  "Does nothing but to say at some length, so that the line has to be broken, what it was given.");
   add_seed(app, options->seed);
@@ -25,7 +24,7 @@ void add(CLI::App& program, const std::string& command, const std::string& name)
   app.option("--share", options->share, "A share").number_in(0.0, 1.0);
   Option label = app.option("--label", options->output.out, "A label");
   if (name == "train") label.required();
-  add_output(app, options->output);
+  add_results(app, options->output, command);
   app.run([options, name] {
     given = *options;
     given.subcommand = name;

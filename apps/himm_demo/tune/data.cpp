@@ -391,7 +391,9 @@ std::vector<RowPlace> leave_out_strays(TuneData& data, const FilterSettings& set
   choice.rules.rejections = 0;
   choice.rules.record = true;
   std::vector<RowPlace> strays;
-  for (std::size_t pass = 0; pass < passes; ++pass)
+  std::size_t found = 1;
+  for (std::size_t pass = 0; pass < passes && found > 0; ++pass) {
+    const std::size_t before = strays.size();
     for (std::size_t t = 0; t < data.tracks.size(); ++t) {
       auto& rows = data.tracks[t].rows;
       const std::vector<AnyPlot> plots = data.plots(data.tracks[t], settings);
@@ -418,6 +420,8 @@ std::vector<RowPlace> leave_out_strays(TuneData& data, const FilterSettings& set
         strays.push_back({t, k});
       }
     }
+    found = strays.size() - before;
+  }
   if (too_many * strays.size() > data.measurements) {
     data.tracks = std::move(whole);
     return {};
