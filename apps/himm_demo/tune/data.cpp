@@ -11,6 +11,7 @@ namespace {
 constexpr std::size_t fewest_measurements = 10;  // of a track: three start the filter
 constexpr std::size_t fewest_in_all = 40;
 constexpr double stray_share = 0.01;  // of all measurements
+constexpr double rows_apart = 60.0;   // in s, in which what moves may turn more than once
 
 void refuse_other_kind(const TuneOptions& options, const TuneData& data, const RecordingReader& recording) {
   const std::string& file = recording.file();
@@ -261,8 +262,14 @@ TuneData read_tune_data(const TuneOptions& options, const FilterSettings& settin
     data.notes.push_back(
         "errors that last from row to row, as those of a GNSS, cannot be told from the target's way without a truth: "
         "sigma_position_m is how far rows scatter beside their neighbours, and what is stated of estimates leaves out "
-        "what lasts; of rows far apart it holds the turns between them, too: where the device's accuracy is known, "
-        "keep it by --keep sensors");
+        "what lasts: where the device's accuracy is known, keep it by --keep sensors");
+  const auto has_position = [](const auto& sensor) { return sensor.second.position; };
+  if (data.step_s >= rows_apart && !data.has_truth && std::ranges::any_of(data.sensors, has_position))
+    data.notes.push_back(
+        fmt::format("of rows {:.6g} s apart sigma_position_m may hold the turns between them, too: where the device's "
+                    "accuracy is known, keep it by --keep sensors, and try a model whose velocity does not last "
+                    "(--models cwna,ou_velocity)",
+                    data.step_s));
   const bool by_steps = options.models.empty() && std::ranges::any_of(settings.motions, [](const MotionChoice& motion) {
                           return motion.name == "dwna" || motion.name == "dwpa";
                         });

@@ -333,7 +333,7 @@ class Fitter {
     };
     also_from(true, "");
     also_from(false, "");
-    if (settings.models.size() > 2)  // which of them is quiet, a search does not find out
+    if (settings.models.size() > 1)  // which of them is quiet, a search does not find out
       for (const FreeNumber& number : free_numbers(settings, data_, options_))
         if (number.noise && !number.sensor) also_from(false, number.parameter.name);
     return best;
@@ -344,6 +344,9 @@ class Fitter {
   /// sees.
   Fitted fit(const FilterSettings& settings, std::size_t start) const {
     Fitted best = descended(from(settings), start);
+    const double before = best.fitted;
+    scan(best, true);  // a noise that is next to nothing has no slope
+    if (before - best.fitted > least_improvement) best = descended(std::move(best), 0);
     FilterSettings noisy = best.settings;
     if (!takes_noise_of_rates(noisy)) return best;
     Fitted other = from(noisy);
@@ -446,7 +449,9 @@ class Fitter {
     noise.set(without, nothing * noise.parameter.start);
     const MeanDifference worse =
         mean_difference(judged(data_, without, options_.objective), judged(data_, found.settings, options_.objective));
-    return worse.mean <= worse.error && share_of_strays(without) <= share_of_strays(found.settings) + no_more;
+    const double half_a_nat = 0.5 / static_cast<double>(data_.measurements);
+    return worse.mean <= std::max(worse.error, half_a_nat) &&
+           share_of_strays(without) <= share_of_strays(found.settings) + no_more;
   }
 
   /// A sensor's noise as great as it may be where the rows lose half a nat by it: less would be stated for no reason.

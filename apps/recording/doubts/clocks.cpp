@@ -22,13 +22,13 @@ void Clocks::see(double time, std::optional<double> before) {
   if (before && steps_.size() < many) steps_.push_back(time - *before);
 }
 
-void Clocks::see_way(double step, double way) {
+void Clocks::see_way(double step, double way, double farther) {
   constexpr std::size_t most = 16;
   path_ += way;
   if (ways_.size() == most && !ways_.contains(step)) return;
   auto& [count, sum] = ways_[step];
   ++count;
-  sum += way;
+  sum += farther;
 }
 
 void Clocks::see_slip(const Trail& trail, const Spoke& now) {

@@ -11,8 +11,8 @@ class Clocks {
   void see(double time);
   /// The time of a position, and that of its track's one before, if there is one.
   void see(double time, std::optional<double> before);
-  /// How far a sensor's target came in a step.
-  void see_way(double step, double way);
+  /// How far a sensor's target came in a step, and how much farther from its first position: what noise adds to ways.
+  void see_way(double step, double way, double farther);
   /// A row of a sensor that came as far as before, in a much longer time.
   void see_slip(const Trail& trail, const Spoke& now);
 
@@ -39,8 +39,8 @@ class Clocks {
     std::size_t line;
     double dt, step;
   } slip_{};                                               // the first
-  std::map<double, std::pair<std::size_t, double>> ways_;  // by step, of several: how many, and their sum
-  double path_ = 0.0;                                      // all of them
+  std::map<double, std::pair<std::size_t, double>> ways_;  // by step, of several: how many, and how much farther
+  double path_ = 0.0;                                      // all ways
   std::size_t fractions_ = 0;                              // times of no whole second
   std::size_t times_ = 0, clocks_ = 0, minutes_ = 0, hours_ = 0, uneven_ = 0;
   double hundreds_ = nan, latest_ = 0.0;  // of the last time

@@ -150,7 +150,8 @@ void Doubts::Parts::see_next(const Track& track, const std::string& name, Sensor
   trail.even = std::abs(dt - trail.step) < 0.01 * dt ? trail.even + 1 : 0;
   see_bends(trail, now);
   clocks.see_slip(trail, now);
-  clocks.see_way(dt, length(now.at - last.at));
+  const Vector<3> first = track.first.value_or(last.at);
+  clocks.see_way(dt, length(now.at - last.at), length(now.at - first) - length(last.at - first));
   stations.see_error(last, now);
   rates.see(sensor.rates, trail, now);
   trail.before = {last.time, last.at};
