@@ -332,10 +332,9 @@ class Fitter {
       keep_better(best, std::move(other));
     };
     also_from(true, "");
-    also_from(false, "");
-    if (settings.models.size() > 1)  // which of them is quiet, a search does not find out
-      for (const FreeNumber& number : free_numbers(settings, data_, options_))
-        if (number.noise && !number.sensor) also_from(false, number.parameter.name);
+    // Which of several motions is quiet, a search does not find out.
+    for (const FreeNumber& number : free_numbers(settings, data_, options_))
+      if (number.noise && !number.sensor) also_from(false, number.parameter.name);
     return best;
   }
 
