@@ -307,6 +307,11 @@ double TuneSensor::rounding_of(AnyPlot::Sensor kind, int from, int to) const {
   return greatest.value_or(0.0);
 }
 
+bool TuneSensor::sees(int from, int to) const {
+  const auto first = stray_width.lower_bound({AnyPlot::Sensor::components, from});
+  return first != stray_width.end() && first->first <= QuantityKey{AnyPlot::Sensor::components, to};
+}
+
 double TuneData::stray_width(const QuantityKey& quantity) const {
   double width = 0.0;
   for (const auto& [name, sensor] : sensors)

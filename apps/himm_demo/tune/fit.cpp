@@ -127,6 +127,7 @@ void add_sensor(const FilterSettings& settings, const std::string& name, const T
   if (sensor.position) {
     // One number for axes from one to another, which keep their ratio.
     const auto add_axes = [&](std::string_view whose, int from, int to) {
+      if (!sensor.sees(from, to)) return;
       auto sigma = now.position_m;
       if (axes == 3 || sensor.apart) sigma.resize(3, sigma.back());
       const double start = sigma[sigma.size() == 1 ? 0 : static_cast<std::size_t>(from)];
@@ -374,17 +375,26 @@ class Fitter {
       return best;
     }
     const auto now = told_numbers(best.settings);
-    for (FreeNumber& number : free_numbers(best.settings, data_, options_)) {
+    const auto all = free_numbers(best.settings, data_, options_);
+    std::vector<std::vector<FreeNumber>> rivals;
+    for (const FreeNumber& number : all)
+      if (number.sensor && number.noise && !number.is_least()) add_rival(best, number, rivals);
+    for (FreeNumber number : all) {
       if (number.relative) continue;
+      const FitParameter& its = number.parameter;
       const bool flat = number.noise && may_be_nothing(best, number);
-      if (flat && number.sensor && !number.is_least()) raise(best, number);
-      const double value = number.parameter.start;
-      best.numbers.push_back({number.parameter.name, value, infinity, number.is_least()});
-      for (std::size_t i = 0; i < numbers.size() && !flat && now.size() == numbers.size(); ++i) {
-        if (numbers[i].parameter.name != number.parameter.name || !(shape.error[i] < 1.0)) continue;
-        const double error = as_lost(best, now, shape.ridges[i], shape.error[i]);
-        if (error < 1.0) best.numbers.back().error = error * (number.parameter.scale == Scale::linear ? 1.0 : value);
-      }
+      double error = infinity;
+      for (std::size_t i = 0; i < numbers.size() && !flat && now.size() == numbers.size(); ++i)
+        if (numbers[i].parameter.name == its.name && shape.error[i] < 1.0)
+          error = as_lost(best, now, shape.ridges[i], shape.error[i]);
+      for (const auto& rival : rivals)
+        for (const FreeNumber& other : rival)
+          if (other.parameter.name == its.name)
+            error = std::max(error, 0.5 * std::abs(its.scaled(other.parameter.start) - its.scaled(its.start)));
+      const bool told = error < 1.0;
+      if (!told && number.sensor && !number.is_least()) raise(best, number);
+      const double unit = its.scale == Scale::linear ? 1.0 : its.start;
+      best.numbers.push_back({its.name, its.start, told ? unit * error : infinity, number.is_least(), number.sensor});
     }
     return best;
   }
@@ -440,6 +450,21 @@ class Fitter {
     return error;
   }
 
+  /// The numbers without a sensor's noise, the others searched anew, if all rows lose less than two nats by it: what
+  /// the target's may stand for tells no more than that.
+  void add_rival(const Fitted& found, const FreeNumber& noise, std::vector<std::vector<FreeNumber>>& rivals) const {
+    constexpr double nothing = 1e-3;
+    FilterSettings without = found.settings;
+    noise.set(without, nothing * noise.parameter.start);
+    Fitter others = *this;
+    others.held_ = noise.parameter.name;
+    Fitted rival = others.from(without);
+    others.scan(rival, true);
+    rival = others.descended(std::move(rival), 0);
+    if (rival.fitted < found.fitted + 2.0 / static_cast<double>(data_.measurements))
+      rivals.push_back(free_numbers(rival.settings, data_, options_));
+  }
+
   /// Whether the rows lose no more without a noise, within a standard error: the curvature does not tell, as both it
   /// and the slopes vanish alike.
   bool may_be_nothing(const Fitted& found, const FreeNumber& noise) const {
@@ -493,6 +518,13 @@ class Fitter {
     best.settings = settings;
     best.fitted = found;
     return true;
+  }
+
+  /// All but the one that is held.
+  std::vector<FreeNumber> searched_numbers(const FilterSettings& settings) const {
+    auto numbers = free_numbers(settings, data_, options_);
+    std::erase_if(numbers, [&](const FreeNumber& number) { return number.parameter.name == held_; });
+    return numbers;
   }
 
   /// The numbers that are not as small as they may be.
@@ -556,7 +588,7 @@ class Fitter {
   /// One number after the other by great factors, the sensors' first: a search would be caught where measurements that
   /// are thought exact are explained by a wild target, or all by great errors.
   void scan(Fitted& best, bool with_sensors) const {
-    auto numbers = free_numbers(best.settings, data_, options_);
+    auto numbers = searched_numbers(best.settings);
     std::erase_if(numbers, [&](const FreeNumber& number) { return number.sensor && !with_sensors; });
     std::stable_partition(numbers.begin(), numbers.end(), [](const FreeNumber& number) { return number.sensor; });
     for (std::size_t sweep = 0; sweep < most_sweeps; ++sweep) {
@@ -582,7 +614,7 @@ class Fitter {
   }
 
   void search_numbers(Fitted& best, std::size_t start) const {
-    const auto numbers = free_numbers(best.settings, data_, options_);
+    const auto numbers = searched_numbers(best.settings);
     std::vector<FitParameter> parameters;
     for (const auto& number : numbers) {
       parameters.push_back(number.parameter);
@@ -642,6 +674,7 @@ class Fitter {
   const TuneOptions& options_;
   Progress& progress_;
   RowCounts counts_;
+  std::string held_{};
 };
 
 /// Whether all noises may be fitted, so that what remains great is a row's own fault.

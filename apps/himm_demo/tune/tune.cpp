@@ -22,6 +22,7 @@ struct Diagnosis {
   std::optional<double> rmse_m;       ///< where the truth is known
   double told_m = 0.0;                ///< what the filter takes that for
   std::vector<RowPlace> set_aside{};  ///< that the gate turned away
+  std::map<std::string, InnovationTally> files{};
 };
 
 /// What tuning found for one filter, and its innovations before and, if that is better, with the best settings.
@@ -76,6 +77,14 @@ std::vector<std::string> advice_of(const Diagnosis& diagnosis) {
         "alone: see what is their own; where they are flights or turns, a greater sigma_w expects them, and where "
         "velocities are measured beside positions, --models cwna,cwpa,cwna+cwpa may.",
         aside, rows + aside));
+  std::map<double, std::string> by_nis;
+  for (const auto& [file, innovations] : diagnosis.files)
+    if (innovations.count() >= 40) by_nis.emplace(innovations.mean_square(), file);
+  if (!by_nis.empty() && by_nis.rbegin()->first > 4.0 * by_nis.begin()->first)
+    sentences.push_back(
+        fmt::format("the NIS is {:.2g} in {} and {:.2g} in {}, which are not alike: where sensors differ, name them in "
+                    "a column sensor; where targets do, tune each alone.",
+                    by_nis.begin()->first, by_nis.begin()->second, by_nis.rbegin()->first, by_nis.rbegin()->second));
   if (sentences.empty())
     sentences.push_back("nothing: the innovations are as large and as independent as they should be.");
   return sentences;
@@ -113,7 +122,7 @@ ResultTable innovations_table(const std::vector<Diagnosis::Part>& parts, bool mo
 /// The fitted numbers of the best settings.
 ResultTable numbers_table(const TunedFilter& tuned) {
   ResultTable table;
-  for (const auto& [name, value, error, at_rounding] : tuned.best().numbers) {
+  for (const auto& [name, value, error, at_rounding, sensor] : tuned.best().numbers) {
     const bool told = !at_rounding && std::isfinite(error);
     const std::string remark = at_rounding ? "no less: its column is rounded"
                                : told      ? fmt::format(fmt::runtime(error < 100.0 ? "± {:.2g}" : "± {:.0f}"), error)
@@ -357,6 +366,7 @@ Diagnosis diagnose(const TuneData& data, const FilterSettings& settings, Objecti
     if (!now.nis) return;
     sensors[row.sensor].add(now.normalized_innovation, last[row.sensor]);
     diagnosis.modes[now.most_likely_mode].innovations.add(now.normalized_innovation);
+    diagnosis.files[data.tracks[t].file].add(now.normalized_innovation);
     last[row.sensor] = now.normalized_innovation;
     for (std::size_t j = 0; j < now.weights.size(); ++j) diagnosis.modes[j].weight += now.weights[j];
     ++rows;
@@ -510,6 +520,12 @@ TuneFindings tune_and_report(const FilterSettings& filter, const TuneData& data,
                       "for, as where a clock or a place jumps once, or values are held or limited: look at its rows.\n",
                       widened));
     if (const std::string truth = text_of_truth(before, *after); !truth.empty()) say(truth);
+    if (std::ranges::any_of(tuned.best().numbers, [](const FittedNumber& number) {
+          return number.sensor && !number.at_rounding && std::isinf(number.error);
+        }))
+      say("\nWhere rows do not determine a sensor's sigma, much of what they scatter may be its errors or the target's "
+          "way, and what is stated of estimates depends on which: if its accuracy is known, keep it by --keep "
+          "sensors.\n");
   }
   const double strays =
       options.objective == Objective::prequential ? data.share_of_strays(tuned.held_out[tuned.selected.best]) : 0.0;

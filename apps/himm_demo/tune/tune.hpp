@@ -68,6 +68,9 @@ struct TuneSensor {
   /// before, of any sensor, stay below, those that are none left out.
   std::map<QuantityKey, double> stray_width{};
 
+  /// Whether any of these components ever changes.
+  bool sees(int from, int to) const;
+
   /// The greatest rounding of quantities of a kind, from one to another; 0 if there is none, infinite if none changes.
   double rounding_of(AnyPlot::Sensor kind, int from, int to) const;
 };
@@ -141,6 +144,7 @@ struct FittedNumber {
   double value = 0.0;
   double error = 0.0;
   bool at_rounding = false;  ///< whether it is as small as the rounding of its column allows
+  bool sensor = false;       ///< whether it is a sensor's
 };
 
 /// Settings that were fitted to rows, at the end their noises by one factor more.

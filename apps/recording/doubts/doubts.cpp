@@ -118,6 +118,8 @@ void Doubts::see(const Row& row, const std::optional<Position>& position, const 
             row.line};
   parts_->repeats.see(row, now, axes);
   const auto [own, first] = track.sensors.try_emplace(row.sensor, now);
+  if (!first && track.latest != row.sensor)
+    parts_->repeats.see_other(length(now.at - own->second.trail.last.at), track.last == now.at);
   if (first)
     parts_->sensors.insert(row.sensor);
   else

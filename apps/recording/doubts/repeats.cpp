@@ -91,6 +91,14 @@ void Repeats::see(Sensor& sensor, const Trail& trail, const Spoke& now) {
   if (is_twice(now) != is_twice(last)) to_twice_ += jump;
 }
 
+void Repeats::see_other(double way, bool same) {
+  if (way == 0.0) return;
+  ++others_;
+  if (!same) return;
+  ++echoes_;
+  if (echoed_.size() <= few) echoed_.insert(static_cast<float>(way));
+}
+
 void Repeats::see_bend(Sensor& sensor, const Trail& trail, const Spoke& now, double bend) {
   if (trail.before->second == trail.last.at || bent_ == many) return;
   sensor.bends.emplace_back(bend, length(trail.before->second - now.at));
@@ -185,6 +193,10 @@ void Repeats::say(Say& say, const RecordingReader& recording, std::size_t tracks
       "errors are counted from where the target was",
       truths.same, truths.same + truths.changed);
   say_held(say, tracks, moved);
+  say(5 * echoes_ > 2 * others_ && echoed_.size() > few,
+      "{} of {} positions that follow one of another sensor equal it to the last digit: what comes twice counts as two "
+      "measurements, and the filters take their estimates for better than they are; leave one row of each",
+      echoes_, others_);
 }
 
 }  // namespace sigmax::apps::doubts

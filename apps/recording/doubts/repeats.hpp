@@ -38,6 +38,8 @@ class Repeats {
   void see(const Row& row, const Spoke& now, int axes);
   /// A row after the first of its sensor.
   void see(Sensor& sensor, const Trail& trail, const Spoke& now);
+  /// A row after one of another sensor, that came so far from its own one before, and not from that one.
+  void see_other(double way, bool same);
   /// How far the last row is off the way between the one before and this one.
   void see_bend(Sensor& sensor, const Trail& trail, const Spoke& now, double bend);
 
@@ -79,7 +81,9 @@ class Repeats {
   std::size_t returns_ = 0;           // positions that are near one of the last few, but not near the last
   std::optional<Sensor::Leap> leap_;  // the first, and how many there are
   std::size_t leaps_ = 0;
-  std::size_t bent_ = 0;  // bends of all sensors
+  std::size_t bent_ = 0;                 // bends of all sensors
+  std::size_t others_ = 0, echoes_ = 0;  // rows after those of other sensors, and those that only repeat one
+  std::set<float> echoed_;               // their own ways, some
   Stranger zero_heights_, zero_truths_;
   std::optional<double> twice_;  // the first number that is both coordinates of a position
   std::size_t twice_rows_ = 0;
