@@ -145,8 +145,7 @@ void RecordingReader::find_columns() {
   const bool places = options_.sensor_places || are_there(Role::sensor_place);
   if (along_one || (((geodetic() && !places) || options_.simulated) && !polar())) drop(Role::polar);
   const bool has_course = are_there(Role::course) && !has(Role::velocity) && !has(Role::velocity, 1);
-  const bool has_velocity = has_course || has(Role::velocity);
-  refuse_other_kinds(cartesian, time.has_value(), has_velocity);
+  refuse_other_kinds(cartesian, time.has_value(), has_course || has(Role::velocity));
   time_ = *time;
 
   if (!cartesian) drop(Role::position);
@@ -240,7 +239,7 @@ bool RecordingReader::next(Row& row) {
   row.rates = rates();
   const double time = row.plot.time;
   const auto plot = measured();
-  const auto counts = [&](Role role) { return says(role) && !is_senseless(role); };
+  const auto counts = [&](Role role) { return says(role) && !says(role, beyond_sense); };
   row.sensor_at = counts(Role::sensor_position) ? position(Role::sensor_position) : std::nullopt;
   row.sensor_place = counts(Role::sensor_place) ? std::optional(place(Role::sensor_place)) : std::nullopt;
   if (!plot) senseless_.add(row.line);
@@ -376,8 +375,7 @@ std::optional<double> RecordingReader::number_in(std::size_t column) {
   };
   if (cell.empty() || std::ranges::none_of(options_.missing, is_cell)) {
     // A digit may follow a sign; 1 234, 1.234,5 and 33.88°S are no words for nothing.
-    const bool is_word = !cell.empty() && !parse_number(cell) && cell.find_first_of("0123456789") > 1;
-    if (is_word)
+    if (!cell.empty() && !parse_number(cell) && cell.find_first_of("0123456789") > 1)
       throw row_.error(column, "a finite number with a decimal point",
                        "leave the cell empty where there is none, or name such cells by --missing=" + typed(cell));
     return row_.optional_number(column);
@@ -474,16 +472,11 @@ Position RecordingReader::rates() const {
   return rates;
 }
 
-bool RecordingReader::says(Role role) const {
-  const auto first = said_.begin() + place_of(role);
-  return std::any_of(first, first + size_of(role), [](const auto& number) { return number.has_value(); });
-}
-
-/// Whether it has a number that stands for none.
-bool RecordingReader::is_senseless(Role role) const {
+/// Whether it has a number, of this size or more.
+bool RecordingReader::says(Role role, double least) const {
   const auto first = said_.begin() + place_of(role);
   return std::any_of(first, first + size_of(role),
-                     [](const auto& number) { return number && std::abs(*number) >= beyond_sense; });
+                     [=](const auto& number) { return number && std::abs(*number) >= least; });
 }
 
 InputError RecordingReader::error(Role role, std::size_t i, std::string_view expected, std::string_view remedy) const {
@@ -523,9 +516,9 @@ Geodetic RecordingReader::place(Role role) const {
 std::optional<AnyPlot> RecordingReader::measured() {
   const bool is_located = says(where()), is_moving = says(Role::velocity) || says(Role::course);
   const bool is_seen = says(Role::polar) && (polar() || !is_located);
-  if (is_senseless(where())) return std::nullopt;
+  if (says(where(), beyond_sense)) return std::nullopt;
   for (const Role role : {Role::polar, Role::sensor_position, Role::sensor_place})
-    if (is_seen && is_senseless(role)) return std::nullopt;
+    if (is_seen && says(role, beyond_sense)) return std::nullopt;
   if (is_located && is_seen)
     throw error(Role::polar, 0, "an empty cell, since the row has a position", "give each sensor a row of its own");
   if (is_located && says(Role::polar)) ++unused_azimuths_;

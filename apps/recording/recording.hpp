@@ -48,8 +48,7 @@ struct Row {
 
 /// So many rows, and the line of the first.
 struct Counted {
-  std::size_t rows = 0;
-  std::size_t first_line = 0;
+  std::size_t rows = 0, first_line = 0;
 
   void add(std::size_t line) {
     if (rows++ == 0) first_line = line;
@@ -227,8 +226,7 @@ class RecordingReader {
   void take_numbers();
   Position rates() const;
   const std::optional<double>& said(Role role, std::size_t i = 0) const { return said_[place_of(role) + i]; }
-  bool says(Role role) const;
-  bool is_senseless(Role role) const;
+  bool says(Role role, double least = 0.0) const;
   void require_whole(Role role, std::size_t size) const;
   Geodetic place(Role role) const;
   std::optional<Position> position(Role role) const;
