@@ -1,5 +1,3 @@
-#include <numeric>
-
 #include <sigmax/recognition/decision.hpp>
 #include <sigmax/recognition/explanation.hpp>
 
@@ -12,8 +10,7 @@ namespace sigmax::apps {
 namespace {
 
 struct ClassifyOptions {
-  std::string model;
-  std::string file;
+  std::string model, file;
   bool explain = false;
   std::size_t rows = 5;       ///< how many rows to show
   double least_margin = 0.0;  ///< decisions with a smaller margin are rejected
@@ -32,7 +29,7 @@ struct Tally {
 
   std::optional<double> accuracy() const {
     if (judged == 0) return std::nullopt;
-    return std::accumulate(recognised.begin(), recognised.end(), 0.0) / static_cast<double>(judged);
+    return sum_of(recognised) / static_cast<double>(judged);
   }
 };
 
@@ -88,13 +85,11 @@ class RowReader {
   void say_outside(Result& result) const {
     constexpr unsigned enough = 20;
     constexpr std::size_t one_in = 200;
-    std::size_t numbers = 0;
-    for (const Column& column : columns_) numbers += column.all;
     if (unseen_cells_ > 0)
       result.say("\n{} as missing, since the model does not know {}: {}",
                  unseen_cells_ == 1 ? "1 cell counts" : fmt::format("{} cells count", unseen_cells_),
                  unseen_cells_ == 1 ? "it" : "them; the first", first_unseen_);
-    if (far_cells_ > 0 && one_in * far_cells_ >= numbers)
+    if (far_cells_ > 0 && static_cast<double>(one_in * far_cells_) >= sum_of(columns_, &Column::all))
       result.say("\n{} far from those that the model was learned from: are they in the same unit? The first: {}",
                  far_cells_ == 1 ? "1 number is" : fmt::format("{} numbers are", far_cells_), first_far_);
     std::array<std::size_t, 3> columns{};  // with numbers, and with more of them below, and above, than by chance
@@ -123,8 +118,7 @@ class RowReader {
         return static_cast<double>(some) * std::log(n / (n + learned)) < std::log(1e-3);
       };
       if (all >= enough) ++columns[0];
-      const bool is_code = below > 4 && least.size() == 1 && *least.begin() < 0.0 && feature.least >= 0.0;
-      if (is_code)
+      if (below > 4 && least.size() == 1 && *least.begin() < 0.0 && feature.least >= 0.0)
         result.say(
             "\nColumn {}: {} numbers are {}, and none that was learned is below 0; if that stands for no value, empty "
             "those cells",

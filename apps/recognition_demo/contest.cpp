@@ -1,7 +1,5 @@
 #include "recognition_demo/contest.hpp"
 
-#include <numeric>
-
 #include <sigmax/core/transform.hpp>
 #include <sigmax/recognition/decision.hpp>
 #include <sigmax/recognition/dominance.hpp>
@@ -115,8 +113,7 @@ void say_unrecognised(const std::vector<std::string>& classes, const std::vector
 void say_beaten(const std::vector<std::string>& classes, const std::vector<std::size_t>& rows,
                 const std::vector<Recognised>& all, Result& result) {
   const auto most = std::ranges::max_element(rows);
-  const double share =
-      static_cast<double>(*most) / static_cast<double>(std::accumulate(rows.begin(), rows.end(), std::size_t{0}));
+  const double share = static_cast<double>(*most) / sum_of(rows);
   std::vector<std::string> worse;
   for (const Recognised& one : all)
     if (one.share && *one.share < share) worse.push_back(in_quotes(one.contestant));
@@ -143,9 +140,7 @@ Relation<Random, Random> mostly_right(const RandomVariable& reading, const Rando
 }
 
 std::vector<double> counted_from(std::size_t first, std::size_t count) {
-  std::vector<double> numbers(count);
-  std::iota(numbers.begin(), numbers.end(), static_cast<double>(first));
-  return numbers;
+  return each_below(count, [=](std::size_t i) { return static_cast<double>(first + i); });
 }
 
 std::vector<Panel> support_charts(const std::vector<std::string>& patterns, const std::vector<Contestant>& contestants,

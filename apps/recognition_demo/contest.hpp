@@ -17,6 +17,14 @@ using GradedReading = std::vector<double>;
 
 using AnyReport = std::variant<Readings, GradedReading>;
 
+/// The sum of what a function or a member tells of each of several things, in their order.
+template <class Range, class Of = std::identity>
+double sum_of(const Range& range, const Of& of = {}) {
+  double sum = 0.0;
+  for (const auto& one : range) sum += static_cast<double>(std::invoke(of, one));
+  return sum;
+}
+
 /// One of the classifiers that are compared on the same reports.
 struct Contestant {
   std::string name;

@@ -1,5 +1,4 @@
 #include <map>
-#include <numeric>
 
 #include <sigmax/core/transform.hpp>
 #include <sigmax/recognition/counts.hpp>
@@ -69,8 +68,7 @@ EncounterData read_encounter(const std::string& file) {
     const Layers& first = all[{classes.front(), i}];
     for (const auto& name : classes) {
       const Layers& own = all[{name, i}];
-      const double sum = std::accumulate(own.count.begin(), own.count.end(), 0.0);
-      if (own.edges != first.edges || !(sum > 0.0))
+      if (own.edges != first.edges || !(sum_of(own.count) > 0.0))
         throw InputError({.where = reader.file(),
                           .what = fmt::format("class {}, feature {}", in_quotes(name), in_quotes(feature_names[i])),
                           .expected = "counts, in the same bins for every class"});
@@ -174,10 +172,9 @@ void say_counts(const EncounterOptions& options, const Counts& counts, Result& r
       "{}: p(f|c) from counts of radar samples, and π(f|c) of them by three transforms; the classes are equally "
       "plausible before",
       options.file);
-  for (std::size_t c = 0; c < counts.pattern().size(); ++c) {
-    const double samples = std::accumulate(counts.of(0, c).begin(), counts.of(0, c).end(), 0.0);
-    result.text += fmt::format("  {}: {:.1f} million samples\n", counts.pattern().label(c), samples * 1e-6);
-  }
+  for (std::size_t c = 0; c < counts.pattern().size(); ++c)
+    result.text +=
+        fmt::format("  {}: {:.1f} million samples\n", counts.pattern().label(c), sum_of(counts.of(0, c)) * 1e-6);
 }
 
 void publish_draws(const EncounterOptions& options, const EncounterData& data, ResultFiles& files) {

@@ -299,11 +299,10 @@ void say_scores(const DataTable& data, const Results& results, const EvaluateOpt
   const double most_often = static_cast<double>(*most) / static_cast<double>(data.size());
   const auto recognised = each(results.outcomes, &Outcome::recognised);
   say_beaten(data.classes, data.rows_of_class, recognised, result);
-  double of_shares = 0.0;
-  for (const std::size_t rows : data.rows_of_class) {
+  const double of_shares = sum_of(data.rows_of_class, [&](std::size_t rows) {
     const double share = static_cast<double>(rows) / static_cast<double>(data.size());
-    of_shares -= share * std::log(share);
-  }
+    return -share * std::log(share);
+  });
   for (const Outcome& outcome : results.outcomes)
     if (const auto* const random = std::get_if<Evaluation<Random>>(&outcome.evaluation);
         random != nullptr && random->log_loss() > of_shares)

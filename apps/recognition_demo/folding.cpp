@@ -1,7 +1,5 @@
 #include "recognition_demo/folding.hpp"
 
-#include <numeric>
-
 #include <sigmax/recognition/decision.hpp>
 #include <sigmax/recognition/folds.hpp>
 
@@ -102,8 +100,7 @@ Clumps clumps_of(const DataTable& data, std::size_t most_alike, std::mt19937_64&
     for (const auto& [apart, b] : nearest[a])
       if (a < b && std::ranges::find(nearest[b], a, &Near::second) != nearest[b].end()) pairs.emplace_back(apart, a, b);
   std::ranges::sort(pairs);
-  clump.resize(n);
-  std::iota(clump.begin(), clump.end(), std::size_t{0});
+  clump = each_below(n, std::identity{});
   for (const auto& [apart, a, b] : pairs) {
     const std::size_t one = clump[a], other = clump[b];
     const auto in = [&](std::size_t which) { return static_cast<std::size_t>(std::ranges::count(clump, which)); };
@@ -205,8 +202,7 @@ Folds folds_of(const DataTable& data, const Groups& groups, std::size_t folds, s
   if (rows.size() < folds)
     throw InputError("{}: found {} groups, expected at least as many as the {} folds; give fewer --folds", data.file,
                      rows.size(), folds);
-  std::vector<std::size_t> order(rows.size()), fold(rows.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::vector<std::size_t> order = each_below(rows.size(), std::identity{}), fold(rows.size());
   const auto is_parted = [&](const std::set<std::size_t>& its) {
     return std::ranges::any_of(its, [&](std::size_t one) { return fold[one] != fold[*its.begin()]; });
   };
@@ -361,8 +357,7 @@ std::optional<ByClumps> by_clumps(const DataTable& data, const LearningOptions& 
   const Clumps clumps = clumps_of(data, alike, generator);
   if (!clumps.are_apart) return std::nullopt;
   const std::size_t n = clumps.rows.size();
-  std::vector<std::size_t> alone(n);
-  std::iota(alone.begin(), alone.end(), std::size_t{0});
+  const auto alone = each_below(n, std::identity{});
   // Whether each row is recognised when, of each class, that of the first row, clumps go to one fold after the other.
   const auto right_by = [&](const std::vector<std::size_t>& clump) -> std::optional<std::vector<double>> {
     std::vector<std::vector<std::size_t>> of_class(data.classes.size());

@@ -1,7 +1,6 @@
 #include "recognition_demo/learned_model.hpp"
 
 #include <map>
-#include <numeric>
 
 namespace sigmax::apps {
 namespace {
@@ -80,8 +79,6 @@ BinCounts classes_of_bins(const LearnedModel& model, std::size_t column) {
   return found;
 }
 
-double sum_of(const std::vector<double>& counts) { return std::accumulate(counts.begin(), counts.end(), 0.0); }
-
 /// How often one class stands in each bin, and all others.
 BinCounts against_others(const BinCounts& bins, std::size_t its_class) {
   return each(bins, [&](const std::vector<double>& counts) {
@@ -97,7 +94,7 @@ std::vector<double> joined(const BinCounts& bins) {
   return all;
 }
 
-double knowledge_by(const BinCounts& bins) { return sum_of(each(bins, knowledge)); }
+double knowledge_by(const BinCounts& bins) { return sum_of(bins, knowledge); }
 
 /// What is known from the one of the limits between bins that tells most, more than from none.
 double told_by_a_limit(const BinCounts& bins) {
@@ -112,7 +109,9 @@ double told_by_a_limit(const BinCounts& bins) {
 }
 
 /// The greatest share of the numbers that is in one bin.
-double fullest(const BinCounts& bins) { return std::ranges::max(each(bins, sum_of)) / sum_of(joined(bins)); }
+double fullest(const BinCounts& bins) {
+  return std::ranges::max(each(bins, [](const auto& own) { return sum_of(own); })) / sum_of(joined(bins));
+}
 
 }  // namespace
 
