@@ -1,17 +1,13 @@
 #include "support/thinned.hpp"
 
-#include <algorithm>
 #include <cmath>
-#include <iterator>
-#include <numeric>
-#include <stdexcept>
-#include <utility>
+
+#include "support/text.hpp"
 
 namespace sigmax::apps {
 
-Thinned::Thinned(std::size_t columns, std::size_t most) : Thinned(columns, most, std::vector<std::size_t>(columns)) {
-  std::iota(watched_.begin(), watched_.end(), std::size_t{0});
-}
+Thinned::Thinned(std::size_t columns, std::size_t most)
+    : Thinned(columns, most, each_below(columns, std::identity{})) {}
 
 Thinned::Thinned(std::size_t columns, std::size_t most, std::vector<std::size_t> watched)
     : columns_(columns), most_(most), watched_(std::move(watched)) {
