@@ -519,8 +519,7 @@ class Maps {
           const auto& conditions = world_.conditions;
           const SweepCondition here{scenario, all.mismatch[c / periods], all.period[c % periods],
                                     all.strength[r / lengths], all.length[r % lengths]};
-          const auto found = std::ranges::find(conditions, here);
-          return cell(static_cast<std::size_t>(found - conditions.begin()), choice);
+          return cell(static_cast<std::size_t>(std::ranges::find(conditions, here) - conditions.begin()), choice);
         });
         view.panels.emplace_back(std::move(map));
       }

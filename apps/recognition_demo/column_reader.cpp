@@ -56,8 +56,7 @@ bool is_range(std::string_view word) {
 
 /// Whether points part thousands, as in 1.543.180.
 bool has_thousands(std::string_view word) {
-  const auto groups = std::ranges::count(word, '.');
-  bool whole = groups > 1 && is_notation(word);
+  bool whole = std::ranges::count(word, '.') > 1 && is_notation(word);
   for (std::size_t at = word.rfind('.'), k = 0; whole && at != word.npos && at > 0; at = word.rfind('.', at - 1), ++k)
     whole = word.size() - at == 4 * (k + 1);
   return whole;

@@ -1,5 +1,3 @@
-#include "recognition_demo/data_table.hpp"
-
 #include <array>
 #include <cmath>
 #include <tuple>

@@ -16,8 +16,7 @@ Study::Row row_of(const Drawn& drawn, const std::vector<Contestant>& contestants
     row.insert(row.end(), numbers.begin(), numbers.end());
   };
   for (std::size_t i = 0; i < contestants.size(); ++i) {
-    const auto& reports = drawn.reports[drawn.reports.size() == 1 ? 0 : i];
-    const Trace trace = follow(contestants[i], drawn.truth, reports);
+    const Trace trace = follow(contestants[i], drawn.truth, drawn.reports[drawn.reports.size() == 1 ? 0 : i]);
     add(trace.credit);
     add(trace.belief);
     row.push_back(static_cast<double>(trace.refused));
@@ -159,18 +158,16 @@ ResultTable scores_table(const Scores& scores, const std::string& what_is_counte
     std::vector<Field> row = {{of_words("classifier", fmt::format("right, % after {}:", what_is_counted)), score.name}};
     for (const std::size_t k : shown_reports(score.accuracy.size()))
       row.push_back({{.header = fmt::format("{}", k), .digits = 1, .scale = 100.0}, score.accuracy[k - 1]});
-    const std::initializer_list<Field> rest = {
-        {{.key = "accuracy"}, score.accuracy.back()},
-        {of_points("accuracy_minus_that_of_the_first", "last, more than row 1"),
-         first ? Cell() : Cell(score.minus_first.interval())},
-        {{.key = "ties", .header = "ties", .unit = "%", .digits = 1, .scale = 100.0}, score.ties},
-        {{.key = "mean_probability_of_truth"}, only_if(!score.fuzzy, score.belief_in_truth)},
-        {{.key = "mean_possibility_of_truth"}, only_if(score.fuzzy, score.belief_in_truth)},
-        {{.header = "p or π of truth", .digits = 3}, score.belief_in_truth},
-        {{.key = "mean_necessity_of_truth", .header = "necessity of truth", .digits = 3},
-         only_if(score.fuzzy, score.necessity_of_truth)},
-        {{.key = "reports_passed_over"}, score.refused > 0 ? Cell(score.refused) : Cell()}};
-    row.insert(row.end(), rest.begin(), rest.end());
+    row.insert(row.end(), {{{.key = "accuracy"}, score.accuracy.back()},
+                           {of_points("accuracy_minus_that_of_the_first", "last, more than row 1"),
+                            first ? Cell() : Cell(score.minus_first.interval())},
+                           {{.key = "ties", .header = "ties", .unit = "%", .digits = 1, .scale = 100.0}, score.ties},
+                           {{.key = "mean_probability_of_truth"}, only_if(!score.fuzzy, score.belief_in_truth)},
+                           {{.key = "mean_possibility_of_truth"}, only_if(score.fuzzy, score.belief_in_truth)},
+                           {{.header = "p or π of truth", .digits = 3}, score.belief_in_truth},
+                           {{.key = "mean_necessity_of_truth", .header = "necessity of truth", .digits = 3},
+                            only_if(score.fuzzy, score.necessity_of_truth)},
+                           {{.key = "reports_passed_over"}, score.refused > 0 ? Cell(score.refused) : Cell()}});
     table.row_of(row);
   }
   return table;

@@ -336,10 +336,9 @@ void TrackPage::add_history(const Track& track, std::size_t filter, LineChart& m
   HistoryBand band{"best history of " + filters_[filter].name, filters_[filter].name, {}};
   for (std::size_t i = 0; i < stays.size(); ++i) {
     const std::string& model = filters_[filter].models[stays[i].mode];
-    const auto shade = std::ranges::find(models_, model) - models_.begin();
     band.stays.push_back({stays[i].since - track.first_time,
                           i + 1 < stays.size() ? stays[i + 1].since - track.first_time : modes.x.back(), model,
-                          static_cast<std::size_t>(shade)});
+                          static_cast<std::size_t>(std::ranges::find(models_, model) - models_.begin())});
   }
   modes.histories.push_back(std::move(band));
 }

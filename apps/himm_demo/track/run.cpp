@@ -11,8 +11,7 @@ namespace {
 
 /// The frame in which a filter follows a target from a start on.
 struct Segment {
-  std::size_t first_tag;
-  std::size_t starts;
+  std::size_t first_tag, starts;
   LocalFrame frame;
 };
 
@@ -185,8 +184,7 @@ class TrackRun {
     }
     Target& target = found->second;
     if (!options_.radar.sigma) places_.place(row);
-    const bool located = recording_.geodetic() && axes_seen(row.plot, axes_) > 0;
-    if (!target.anchor && (places_.frame() || located))
+    if (!target.anchor && (places_.frame() || (recording_.geodetic() && axes_seen(row.plot, axes_) > 0)))
       begin_frames(target, places_.frame() ? places_.frame()->origin() : place_of(row.plot, axes_, 0.0));
     if (!shares_.concerns(target.rank)) return;
     if (options_.radar.sigma) see_by_radar(row, where(row, target), axes_, options_.radar, target.random, file());
