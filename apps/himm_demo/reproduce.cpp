@@ -146,8 +146,7 @@ class Condition {
 /// One figure of a sentence, measured. The intervals of all figures of one sentence hold together with 95 %.
 struct Measured {
   const Statement* statement;
-  std::optional<std::size_t> phase;
-  std::optional<std::size_t> axis;
+  std::optional<std::size_t> phase, axis;
   Interval interval;
   Finding finding;
 };
@@ -256,8 +255,7 @@ enum class Verdict { holds, only_against_released, does_not_hold, undecided };
 
 /// One sentence under one preset and reading, against both IMMs.
 struct Judged {
-  std::vector<Measured> against_correct;
-  std::vector<Measured> against_released;
+  std::vector<Measured> against_correct, against_released;
 
   /// A sentence holds if all its figures are inside their regions, and does not if one is outside. The correct IMM
   /// decides, unless it holds only against the released one.

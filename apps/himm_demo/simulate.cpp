@@ -357,8 +357,7 @@ std::vector<View> views_of(const Experiment& experiment, const std::vector<Perfo
 }
 
 struct SimulateOptions {
-  int scenario = 1;
-  int group = 1;
+  int scenario = 1, group = 1;
   Preset preset = Preset::paper_text;
   std::optional<int> runs;
   std::uint64_t seed = 1;

@@ -47,8 +47,7 @@ struct DataRow {
 /// memory does not grow with their number.
 class DataTable {
  public:
-  std::string file;
-  std::string label;
+  std::string file, label;
   std::vector<std::string> classes;
   std::vector<std::size_t> rows_of_class;
   std::vector<DataColumn> columns;

@@ -47,8 +47,7 @@ struct Performance {
 
 /// Types of aircraft and the quantities that are known of all of them.
 struct PerformanceData {
-  std::vector<std::string> types;
-  std::vector<std::string> variables;
+  std::vector<std::string> types, variables;
   std::vector<std::vector<Performance>> table;  ///< by variable, then by type
   std::vector<std::string> remarks;             ///< what had to be mended, with its line
 };

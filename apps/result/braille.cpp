@@ -58,8 +58,7 @@ class Canvas {
 };
 
 struct Extent {
-  double least = std::numeric_limits<double>::infinity();
-  double greatest = -std::numeric_limits<double>::infinity();
+  double least = std::numeric_limits<double>::infinity(), greatest = -least;
 
   void add(double value) {
     least = std::min(least, value);

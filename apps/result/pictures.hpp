@@ -14,8 +14,7 @@ struct Report;
 struct Picture {
   std::string name;  ///< of its file, without an ending
   std::string script;
-  double width_cm = 16.0;
-  double height_cm = 9.0;
+  double width_cm = 16.0, height_cm = 9.0;
 };
 
 /// The charts, maps and matrices that a report opens with, for a paper: its panels, those of its first view, and its

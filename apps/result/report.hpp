@@ -17,8 +17,7 @@ inline constexpr const char* truth_name = "truth";
 
 /// Numbers from … to that are marked in a chart: along x a time that is shaded, along y where a value should be.
 struct Marked {
-  double from = 0.0;
-  double to = 0.0;
+  double from = 0.0, to = 0.0;
   std::string label{};
 };
 
@@ -27,24 +26,21 @@ struct Curve {
   std::string name{};
   std::string group{};  ///< its name in the report's groups; empty for none
   std::vector<double> values{};
-  std::vector<double> lower{};
-  std::vector<double> upper{};
+  std::vector<double> lower{}, upper{};
   int dash = -1;      ///< which pattern its line has; −1: that of its group
   bool dots = false;  ///< points rather than a line
 };
 
 /// What holds from … to: one of a history's pieces. `shade` tells those of the same label from others.
 struct Stay {
-  double from = 0.0;
-  double to = 0.0;
+  double from = 0.0, to = 0.0;
   std::string label{};
   std::size_t shade = 0;
 };
 
 /// A band below the curves of a chart that says which of several things holds when, as a history of modes.
 struct HistoryBand {
-  std::string name{};
-  std::string group{};
+  std::string name{}, group{};
   std::vector<Stay> stays{};
 };
 
@@ -75,11 +71,9 @@ void limit_axis(LineChart& chart, double share = 0.5, double times = 3.0);
 /// One trace of a map: a line or points, with a height where there is one.
 struct PlanTrace {
   enum class Shape { line, dots, crosses };
-  std::string name{};
-  std::string group{};
+  std::string name{}, group{};
   Shape shape = Shape::line;
-  std::vector<double> x{};
-  std::vector<double> y{};
+  std::vector<double> x{}, y{};
   std::vector<double> z{};  ///< empty or as long as the others
 };
 
@@ -95,15 +89,12 @@ struct ErrorEllipse {
 /// A parallel or meridian, as points of the plan.
 struct GraticuleLine {
   std::string label{};
-  std::vector<double> x{};
-  std::vector<double> y{};
+  std::vector<double> x{}, y{};
 };
 
 /// Traces in plan, of one scale in x and y; those with heights are shown in space as well.
 struct Plan {
-  std::string title{};
-  std::string x_label{};
-  std::string y_label{};
+  std::string title{}, x_label{}, y_label{};
   std::vector<PlanTrace> traces{};
   std::vector<ErrorEllipse> ellipses{};
   std::vector<GraticuleLine> graticule{};
@@ -138,10 +129,8 @@ struct IntervalChart {
 /// number.
 struct HeatMap {
   std::string title{};
-  std::string row_label{};
-  std::string column_label{};
-  std::vector<std::string> rows{};
-  std::vector<std::string> columns{};
+  std::string row_label{}, column_label{};
+  std::vector<std::string> rows{}, columns{};
   std::vector<std::vector<double>> values{};
   std::string value_label{};  ///< with its unit
   bool diverging = false;     ///< zero is in the middle: below it is better

@@ -125,8 +125,7 @@ class MpiRanks : public Ranks {
     return values;
   }
 
-  int rank_ = 0;
-  int size_ = 1;
+  int rank_ = 0, size_ = 1;
   std::deque<std::pair<std::string, MPI_Request>> under_way_;
 };
 

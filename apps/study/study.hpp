@@ -26,8 +26,7 @@ struct Study {
 /// other.
 struct Sharing {
   int threads = 0;  ///< 0: as many as the machine has
-  std::size_t shard = 0;
-  std::size_t shards = 1;
+  std::size_t shard = 0, shards = 1;
   bool finished = false;  ///< everything must have been done before
 };
 

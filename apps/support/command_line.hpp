@@ -129,8 +129,7 @@ void add_seed(Subcommand app, std::uint64_t& seed, const std::string& of_what = 
 void add_threads(Subcommand app, int& threads);
 
 struct ProgramOutline {
-  std::string name;
-  std::string description;
+  std::string name, description;
   std::vector<AddSubcommand> subcommands;
   std::string default_subcommand;  ///< what runs without a subcommand, with all options
   std::string_view usage = {};     ///< what help says below the options: after a line [NAME] that of a subcommand

@@ -108,8 +108,7 @@ class CsvReader {
   std::istream* stream_;
   std::shared_ptr<CsvHeader> header_;
   std::vector<char> buffer_;
-  std::size_t position_ = 0;
-  std::size_t filled_ = 0;
+  std::size_t position_ = 0, filled_ = 0;
   std::uint64_t bytes_before_ = 0;
   std::optional<std::uint64_t> bytes_total_;
   std::size_t line_ = 1;

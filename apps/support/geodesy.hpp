@@ -9,9 +9,7 @@ using Position = std::array<double, 3>;
 
 /// A point above the WGS 84 ellipsoid: degrees, and metres along the ellipsoid's normal.
 struct Geodetic {
-  double latitude_deg = 0.0;
-  double longitude_deg = 0.0;
-  double altitude_m = 0.0;
+  double latitude_deg = 0.0, longitude_deg = 0.0, altitude_m = 0.0;
 
   /// Throws std::invalid_argument unless |latitude| ≤ 90°, |longitude| ≤ 360° and the altitude is finite.
   static Geodetic checked(double latitude_deg, double longitude_deg, double altitude_m);

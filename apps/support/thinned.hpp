@@ -41,13 +41,10 @@ class Thinned {
   void halve();
   void keep_extremes(Stretch& rows) const;
 
-  std::size_t columns_;
-  std::size_t most_;
+  std::size_t columns_, most_;
   std::vector<std::size_t> watched_;
   std::size_t length_ = 1;  // of a stretch, in rows as they came
-  std::size_t in_last_ = 0;
-  std::size_t taken_ = 0;
-  std::size_t kept_ = 0;
+  std::size_t in_last_ = 0, taken_ = 0, kept_ = 0;
   std::vector<Stretch> stretches_;
 };
 

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <string_view>
 #include <vector>
 
 #include <sigmax/estimation/radar.hpp>
@@ -19,15 +18,13 @@ inline const char* name_of(Preset preset) { return preset == Preset::released ? 
 
 /// Samples first … last, counted from one.
 struct Phase {
-  int first;
-  int last;
+  int first, last;
 };
 
 /// A manoeuvring target and how often it is seen, section VI.A.
 struct Scenario {
   double step_s;
-  Vector<3> position;
-  Vector<3> velocity;
+  Vector<3> position, velocity;
   Vector<3> acceleration;       ///< while it manoeuvres
   int last_accelerated;         ///< the transition k → k + 1 uses it for k from the onset to here
   std::array<Phase, 3> phases;  ///< in the order of their names

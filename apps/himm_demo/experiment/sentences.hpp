@@ -29,8 +29,7 @@ enum class FigureOf {
 
 /// Where a figure must lie for the sentence to hold.
 struct Region {
-  double above = -infinity;
-  double below = infinity;
+  double above = -infinity, below = infinity;
 };
 
 /// What runs say of a region in which a figure should lie: its whole interval does, or none of it does, or neither.
@@ -41,10 +40,8 @@ Finding finding_of(const Interval& interval, const Region& region);
 /// A part of a sentence that can be measured.
 struct Statement {
   FigureOf figure;
-  Actor of;
-  Actor against;
-  int scenario;
-  int group;
+  Actor of, against;
+  int scenario, group;
   std::vector<std::size_t> phases;  ///< 0: before, 1: during, 2: after the manoeuvre
   Region region;
 };

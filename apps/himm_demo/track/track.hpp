@@ -23,8 +23,7 @@ struct Said {
 
 /// How often a filter of a target turned measurements away and started, up to now.
 struct Tally {
-  std::size_t rejected = 0;
-  std::size_t starts = 0;
+  std::size_t rejected = 0, starts = 0;
 };
 
 /// What the filters of a target make of one row, or of all when they have been read.
@@ -133,8 +132,7 @@ class TrackPage {
     std::optional<Geodetic> anchor{};
     std::optional<Position> last_position{};  // measured
     std::optional<std::pair<double, Position>> last_truth{};
-    std::vector<Mark> rejections{};
-    std::vector<Mark> restarts{};
+    std::vector<Mark> rejections{}, restarts{};
   };
   using Named = std::pair<const std::string, Track>;
 
@@ -217,20 +215,15 @@ struct FilterOutcome {
 /// Measurements out of the validity of their standard conversion, r σ_α² / σ_r < 0.4, of all of a radar's.
 struct Validity {
   static constexpr double limit = 0.4;
-  std::size_t outside = 0;
-  std::size_t measurements = 0;
-  std::size_t first_line = 0;
-  double first_value = 0.0;
-  double first_range = 0.0;
-  double sigma_range_needed = 0.0;
+  std::size_t outside = 0, measurements = 0, first_line = 0;
+  double first_value = 0.0, first_range = 0.0, sigma_range_needed = 0.0;
 };
 
 /// Measurements that no filter expects: an NIS above 30 is beyond the 0.999998 quantile of χ² with three degrees of
 /// freedom.
 struct Outliers {
   static constexpr double limit = 30.0;
-  std::size_t count = 0;
-  std::size_t worst_line = 0;
+  std::size_t count = 0, worst_line = 0;
   double worst_nis = 0.0;
 };
 
@@ -239,8 +232,7 @@ struct Refusals {
   std::size_t many = 0;  ///< filters on tracks
   std::string track;
   const FilterSettings* filter = nullptr;
-  std::size_t rejected = 0;
-  std::size_t measurements = 1;
+  std::size_t rejected = 0, measurements = 1;
 };
 
 /// What the list of tracks says of one of them.
@@ -250,8 +242,7 @@ struct TrackTally {
     std::size_t quantities = 0;
     std::size_t rejected = 0;  ///< by the gate
   };
-  std::size_t rows = 0;
-  std::size_t measurements = 0;
+  std::size_t rows = 0, measurements = 0;
   double first_time = nan, last_time = nan;
   double way_m = 0.0;                ///< from estimate to estimate of the first filter
   std::vector<Nis> nis{};            ///< of each filter
@@ -266,8 +257,7 @@ struct TrackTally {
 struct TrackOutcome {
   std::vector<FilterOutcome> filters;
   SumsByPart raw;  ///< of the measurements, where the truth is known
-  std::size_t rows = 0;
-  std::size_t measurements = 0;
+  std::size_t rows = 0, measurements = 0;
   std::size_t partial = 0;  ///< of these with a position along some axes only
   std::size_t bearings = 0;
   std::array<std::size_t, 3> by_default{};     ///< with a position, a range, an azimuth whose sigma nobody gave
