@@ -159,9 +159,10 @@ void summarize(TuneData& data, const Columns& columns) {
       const bool by_radar = row.plot.sensor == AnyPlot::Sensor::polar || row.plot.sensor == AnyPlot::Sensor::doppler;
       const bool is_bearing = row.plot.sensor == AnyPlot::Sensor::bearing;
       bool unsaid = false;  // whether the filter must know how well
-      for (int i = 0; i < (is_bearing ? 1 : seen); ++i) unsaid |= std::isnan(row.plot.variance(i));
-      ++data.measurements;
       TuneSensor& sensor = data.sensors[row.sensor];
+      for (int i = 0; i < (is_bearing ? 1 : seen); ++i)
+        (std::isnan(row.plot.variance(i)) ? unsaid : sensor.stated) = true;
+      ++data.measurements;
       ++sensor.rows;
       sensor.velocity |= is_moving(row.plot, data.axes);
       sensor.range_rate |= row.plot.sensor == AnyPlot::Sensor::doppler;

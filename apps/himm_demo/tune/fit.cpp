@@ -453,14 +453,14 @@ class Fitter {
   /// The numbers without a sensor's noise, the others searched anew, if all rows lose less than two nats by it: what
   /// the target's may stand for tells no more than that.
   void add_rival(const Fitted& found, const FreeNumber& noise, std::vector<std::vector<FreeNumber>>& rivals) const {
-    constexpr double nothing = 1e-3;
+    constexpr double nothing = 1e-3, worth_a_search = 0.5;  // nats a row: great steps end so near
     FilterSettings without = found.settings;
     noise.set(without, nothing * noise.parameter.start);
     Fitter others = *this;
     others.held_ = noise.parameter.name;
     Fitted rival = others.from(without);
     others.scan(rival, true);
-    rival = others.descended(std::move(rival), 0);
+    if (rival.fitted < found.fitted + worth_a_search) rival = others.descended(std::move(rival), 0);
     if (rival.fitted < found.fitted + 2.0 / static_cast<double>(data_.measurements))
       rivals.push_back(free_numbers(rival.settings, data_, options_));
   }
@@ -725,7 +725,7 @@ Kept kept_by(const FilterSettings& settings, const TuneData& data, Objective obj
 /// one factor, which leaves the filter's gains as they are, until the region that is stated to hold 95 % holds as many
 /// of the rows. Of several targets, of which some move as no others do, that goes no farther than until the mean NIS is
 /// near the end of 0.9 to 1.1. Rows that not even sigmas four times as great reach are no noise: where they are too
-/// many, the others alone count. So it does nothing where the rows state their sigmas, since sigma_w alone would change
+/// many, the others alone count. So it does nothing where any rows state their sigmas, since sigma_w alone would change
 /// the gains. The result is to four digits, and without a gate of ours if the rows after confirm all that it turns away
 /// and nearly as much is told without; and by how much the sigmas changed.
 double finish(FilterSettings& settings, double gate, const TuneData& data, const TuneOptions& options) {
@@ -735,10 +735,10 @@ double finish(FilterSettings& settings, double gate, const TuneData& data, const
   constexpr std::size_t fewest_rows = 50;
   constexpr double tolerable = 0.5;  // nats a row
   const FilterSettings fitted = settings;
-  const bool all_may_change =
-      fits_noises(options) && std::ranges::any_of(free_numbers(settings, data, options), [](const FreeNumber& number) {
-        return number.sensor && number.noise;
-      });
+  const auto is_stated = [](const auto& named) { return named.second.stated; };
+  const auto is_noise = [](const FreeNumber& number) { return number.sensor && number.noise; };
+  const bool all_may_change = fits_noises(options) && std::ranges::none_of(data.sensors, is_stated) &&
+                              std::ranges::any_of(free_numbers(settings, data, options), is_noise);
   double in_all = 1.0;
   bool kept_alone = false;
   for (std::size_t k = 0; k < most_steps && all_may_change; ++k) {

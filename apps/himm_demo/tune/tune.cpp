@@ -383,7 +383,8 @@ Diagnosis diagnose(const TuneData& data, const FilterSettings& settings, Objecti
   if (std::isnan(mean_loss(lost)))
     throw InputError(
         {.where = data.tracks.front().file,
-         .what = fmt::format("filter '{}' makes no estimate that could be judged: its start may want positions",
+         .what = fmt::format("filter '{}' makes no estimate that could be judged: its start may want positions, or "
+                             "fewer rows at one time",
                              settings.name),
          .remedy = "say where each station of bearings stands, as --set sensor.NAME.at=[E,N], or give them a "
                    "start, --set start=given; see himm_demo keys"});

@@ -57,7 +57,8 @@ struct TuneTrack {
 struct TuneSensor {
   std::size_t rows = 0;
   bool position = false;
-  bool apart = false;  ///< whether its positions scatter otherwise along x than along y
+  bool stated = false;  ///< whether rows tell how well they measured
+  bool apart = false;   ///< whether its positions scatter otherwise along x than along y
   bool radar = false;
   bool bearing = false;  ///< alone
   bool velocity = false;
