@@ -242,6 +242,15 @@ void round_off(FilterSettings& settings) {
   }
 }
 
+/// The transition of so many models of which nothing is known.
+void set_usual_transition(FilterSettings& settings) {
+  const std::size_t modes = settings.models.size();
+  const double others =
+      settings.fuzzy ? settings.leaving_possibility : 0.05 / static_cast<double>(std::max<std::size_t>(modes, 2) - 1);
+  settings.transition.assign(modes, std::vector<double>(modes, others));
+  for (std::size_t i = 0; i < modes; ++i) settings.transition[i][i] = settings.fuzzy || modes == 1 ? 1.0 : 0.95;
+}
+
 /// Other motions in place of the filter's: models that it had keep their parameters.
 FilterSettings with_models(const FilterSettings& settings, const std::string& joined) {
   FilterSettings result = settings;
@@ -264,10 +273,7 @@ FilterSettings with_models(const FilterSettings& settings, const std::string& jo
   result.models = names_of(result.motions);
   const std::size_t modes = result.models.size();
   if (modes == settings.models.size()) return result;
-  const double others = static_cast<double>(std::max<std::size_t>(modes, 2) - 1);
-  result.transition.assign(modes,
-                           std::vector<double>(modes, result.fuzzy ? result.leaving_possibility : 0.05 / others));
-  for (std::size_t i = 0; i < modes; ++i) result.transition[i][i] = result.fuzzy || modes == 1 ? 1.0 : 0.95;
+  set_usual_transition(result);
   if (!result.sojourn_s.empty()) {
     const double usual = result.sojourn_s.front();
     result.sojourn_s.assign(modes > 1 ? modes : 0, usual);
@@ -327,16 +333,23 @@ class Fitter {
           number.set(exact, nearly_exact * number.parameter.start);
       Fitted other = from(exact);
       if (sensors) scan(other, false);
-      scan(other, true);
-      search_numbers(other, 0);
-      learn(other);
-      keep_better(best, std::move(other));
+      keep_better(best, searched(std::move(other)));
     };
     also_from(true, "");
     // Which of several motions is quiet, a search does not find out.
     for (const FreeNumber& number : free_numbers(settings, data_, options_))
       if (number.noise && !number.sensor) also_from(false, number.parameter.name);
     return best;
+  }
+
+  /// Of a filter with a fuzzy mode, from where a random one leads: the max asks the best model of a row alone, and a
+  /// search sticks where that is not yet the right one.
+  void by_random_mode(Fitted& best, const FilterSettings& fuzzy) const {
+    FilterSettings random = fuzzy, back = fuzzy;
+    random.fuzzy = false;
+    set_usual_transition(random);
+    borrow(back, far(random, true).settings, false, data_, options_);
+    keep_better(best, searched(from(back)));
   }
 
   /// From where those led, by start number `start` about it; and from there with noise of velocities and range rates,
@@ -376,9 +389,9 @@ class Fitter {
     }
     const auto now = told_numbers(best.settings);
     const auto all = free_numbers(best.settings, data_, options_);
-    std::vector<std::vector<FreeNumber>> rivals;
+    std::vector<FreeNumber> rivals;
     for (const FreeNumber& number : all)
-      if (number.sensor && number.noise && !number.is_least()) add_rival(best, number, rivals);
+      if (number.sensor && number.noise && !number.is_least()) add_rivals(best, number, rivals);
     for (FreeNumber number : all) {
       if (number.relative) continue;
       const FitParameter& its = number.parameter;
@@ -387,10 +400,9 @@ class Fitter {
       for (std::size_t i = 0; i < numbers.size() && !flat && now.size() == numbers.size(); ++i)
         if (numbers[i].parameter.name == its.name && shape.error[i] < 1.0)
           error = as_lost(best, now, shape.ridges[i], shape.error[i]);
-      for (const auto& rival : rivals)
-        for (const FreeNumber& other : rival)
-          if (other.parameter.name == its.name)
-            error = std::max(error, 0.5 * std::abs(its.scaled(other.parameter.start) - its.scaled(its.start)));
+      for (const FreeNumber& rival : rivals)
+        if (rival.parameter.name == its.name)
+          error = std::max(error, 0.5 * std::abs(its.scaled(rival.parameter.start) - its.scaled(its.start)));
       const bool told = error < 1.0;
       if (!told && number.sensor && !number.is_least()) raise(best, number);
       const double unit = its.scale == Scale::linear ? 1.0 : its.start;
@@ -400,6 +412,13 @@ class Fitter {
   }
 
  private:
+  Fitted searched(Fitted best) const {
+    scan(best, true);
+    search_numbers(best, 0);
+    learn(best);
+    return best;
+  }
+
   Fitted descended(Fitted best, std::size_t start) const {
     for (std::size_t round = 0; round < rounds; ++round) {
       const double before = best.fitted;
@@ -450,9 +469,9 @@ class Fitter {
     return error;
   }
 
-  /// The numbers without a sensor's noise, the others searched anew, if all rows lose less than two nats by it: what
-  /// the target's may stand for tells no more than that.
-  void add_rival(const Fitted& found, const FreeNumber& noise, std::vector<std::vector<FreeNumber>>& rivals) const {
+  /// The numbers without a sensor's noise, the others searched anew, if all rows lose less than two nats by it: where
+  /// the target's may stand for it, they are as likely.
+  void add_rivals(const Fitted& found, const FreeNumber& noise, std::vector<FreeNumber>& rivals) const {
     constexpr double nothing = 1e-3, worth_a_search = 0.5;  // nats a row: great steps end so near
     FilterSettings without = found.settings;
     noise.set(without, nothing * noise.parameter.start);
@@ -462,7 +481,7 @@ class Fitter {
     others.scan(rival, true);
     if (rival.fitted < found.fitted + worth_a_search) rival = others.descended(std::move(rival), 0);
     if (rival.fitted < found.fitted + 2.0 / static_cast<double>(data_.measurements))
-      rivals.push_back(free_numbers(rival.settings, data_, options_));
+      std::ranges::move(free_numbers(rival.settings, data_, options_), std::back_inserter(rivals));
   }
 
   /// Whether the rows lose no more without a noise, within a standard error: the curvature does not tell, as both it
@@ -830,7 +849,11 @@ TunedFilter tune(const FilterSettings& settings, const TuneData& data, const Tun
   std::size_t first = 0;
   for (std::size_t c = 1; c < sets; ++c)
     if (bases[c].settings.models.size() < bases[first].settings.models.size()) first = c;
-  in_parallel(sets, options.threads, [&](std::size_t c) { begun[c] = far(c, bases[c].settings, true); });
+  in_parallel(sets, options.threads, [&](std::size_t c) {
+    begun[c] = far(c, bases[c].settings, true);
+    if (!similar && bases[c].settings.fuzzy && bases[c].settings.models.size() > 1)
+      fitter.by_random_mode(begun[c], bases[c].settings);
+  });
   // The sensors of one set are those of the others, and another filter's numbers are near.
   in_parallel(sets, options.threads, [&](std::size_t c) {
     if (!similar && c == first) return;
