@@ -342,13 +342,12 @@ class Fitter {
     return best;
   }
 
-  /// Of a filter with a fuzzy mode, from where a random one leads: the max asks the best model of a row alone, and a
-  /// search sticks where that is not yet the right one.
-  void by_random_mode(Fitted& best, const FilterSettings& fuzzy) const {
-    FilterSettings random = fuzzy, back = fuzzy;
-    random.fuzzy = false;
-    set_usual_transition(random);
-    borrow(back, far(random, true).settings, false, data_, options_);
+  /// From where a mode of the other kind leads, fuzzy or random: where one sticks, the other one seldom does.
+  void by_other_mode(Fitted& best, const FilterSettings& settings) const {
+    FilterSettings other = settings, back = settings;
+    other.fuzzy = !settings.fuzzy;
+    set_usual_transition(other);
+    borrow(back, far(other, true).settings, false, data_, options_);
     keep_better(best, searched(from(back)));
   }
 
@@ -851,8 +850,7 @@ TunedFilter tune(const FilterSettings& settings, const TuneData& data, const Tun
     if (bases[c].settings.models.size() < bases[first].settings.models.size()) first = c;
   in_parallel(sets, options.threads, [&](std::size_t c) {
     begun[c] = far(c, bases[c].settings, true);
-    if (!similar && bases[c].settings.fuzzy && bases[c].settings.models.size() > 1)
-      fitter.by_random_mode(begun[c], bases[c].settings);
+    if (!similar && bases[c].settings.models.size() > 1) fitter.by_other_mode(begun[c], bases[c].settings);
   });
   // The sensors of one set are those of the others, and another filter's numbers are near.
   in_parallel(sets, options.threads, [&](std::size_t c) {
