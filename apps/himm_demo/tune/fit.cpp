@@ -822,9 +822,12 @@ std::size_t work_of(const FilterSettings& settings, const TuneData& data, const 
   std::size_t work = 0;
   for (const auto& [name, base] : model_sets(settings, options, data)) {
     const auto numbers = free_numbers(base, data, options);
-    constexpr std::size_t scans = 5, searches = 3;  // from far away
-    work += scans * most_sweeps * factors.size() * numbers.size() +
-            (searches + options.starts) * budget(numbers.size()) + LossSurface::asked(numbers.size()) + options.folds;
+    const auto motions = static_cast<std::size_t>(
+        std::ranges::count_if(numbers, [](const FreeNumber& number) { return number.noise && !number.sensor; }));
+    const std::size_t far = (base.models.size() > 1 ? 2 : 1) * (2 + motions);  // starts
+    const std::size_t scan = most_sweeps * factors.size() * numbers.size(), search = budget(numbers.size());
+    work += (far + options.starts) * scan + (far + rounds * options.starts) * search +
+            LossSurface::asked(numbers.size()) + options.folds;
   }
   return work;
 }
