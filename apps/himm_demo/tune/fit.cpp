@@ -68,6 +68,7 @@ constexpr double usual_sojourn_steps = 20.0;  // as .95 on the diagonal
 constexpr std::array factors = {0.03, 0.1, 0.3, 3.0, 10.0, 30.0};          // by which a number may be off at first
 constexpr std::array turns = {1.0, 2.0, 3.0, 5.0, 8.0, 12.0, 20.0, 30.0};  // that a rate may be at first, in °/s
 constexpr std::size_t most_sweeps = 4;
+constexpr double nothing = 1e-3;  // as good as, times a noise
 
 /// How often a search of n numbers may ask.
 std::size_t budget(std::size_t numbers) { return numbers == 0 ? 1 : 25 * (numbers + 1); }
@@ -471,7 +472,7 @@ class Fitter {
   /// The numbers without a sensor's noise, the others searched anew, if all rows lose less than two nats by it: where
   /// the target's may stand for it, they are as likely.
   void add_rivals(const Fitted& found, const FreeNumber& noise, std::vector<FreeNumber>& rivals) const {
-    constexpr double nothing = 1e-3, worth_a_search = 0.5;  // nats a row: great steps end so near
+    constexpr double worth_a_search = 0.5;  // nats a row: great steps end so near
     FilterSettings without = found.settings;
     noise.set(without, nothing * noise.parameter.start);
     Fitter others = *this;
@@ -486,7 +487,6 @@ class Fitter {
   /// Whether the rows lose no more without a noise, within a standard error: the curvature does not tell, as both it
   /// and the slopes vanish alike.
   bool may_be_nothing(const Fitted& found, const FreeNumber& noise) const {
-    constexpr double nothing = 1e-3;
     FilterSettings without = found.settings;
     noise.set(without, nothing * noise.parameter.start);
     const MeanDifference worse =

@@ -18,11 +18,11 @@ struct Diagnosis {
     double weight = 0.0;  ///< mean, of a mode
   };
   std::vector<Part> sensors;
-  std::vector<Part> modes;            ///< rows of which the mode is the most likely
-  std::optional<double> rmse_m;       ///< where the truth is known
-  double told_m = 0.0;                ///< what the filter takes that for
-  std::vector<RowPlace> set_aside{};  ///< that the gate turned away
-  std::map<std::string, InnovationTally> files{};
+  std::vector<Part> modes;                         ///< rows of which the mode is the most likely
+  std::optional<double> rmse_m;                    ///< where the truth is known
+  double told_m = 0.0;                             ///< what the filter takes that for
+  std::vector<RowPlace> set_aside{};               ///< that the gate turned away
+  std::map<std::string, InnovationTally> files{};  ///< of the rows of each
 };
 
 /// What tuning found for one filter, and its innovations before and, if that is better, with the best settings.
