@@ -388,25 +388,31 @@ class Fitter {
       return best;
     }
     const auto now = told_numbers(best.settings);
-    const auto all = free_numbers(best.settings, data_, options_);
+    auto all = free_numbers(best.settings, data_, options_);
+    std::erase_if(all, &FreeNumber::relative);
     std::vector<FreeNumber> rivals;
     for (const FreeNumber& number : all)
-      if (number.sensor && number.noise && !number.is_least()) add_rivals(best, number, rivals);
-    for (FreeNumber number : all) {
-      if (number.relative) continue;
-      const FitParameter& its = number.parameter;
-      const bool flat = number.noise && may_be_nothing(best, number);
-      double error = infinity;
-      for (std::size_t i = 0; i < numbers.size() && !flat && now.size() == numbers.size(); ++i)
-        if (numbers[i].parameter.name == its.name && shape.error[i] < 1.0)
+      if (number.sensor && number.noise && !number.is_least()) add_rival(best, number, nothing, rivals);
+    std::vector<double> errors;
+    for (const FreeNumber& number : all) {
+      double& error = errors.emplace_back(infinity);
+      if (number.is_least() || (number.noise && may_be_nothing(best, number))) continue;
+      for (std::size_t i = 0; i < numbers.size() && now.size() == numbers.size(); ++i)
+        if (numbers[i].parameter.name == number.parameter.name && shape.error[i] < 1.0)
           error = as_lost(best, now, shape.ridges[i], shape.error[i]);
+      if (!(error < 1.0)) error = profiled(best, number, rivals);
+    }
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      FreeNumber& number = all[i];
+      const FitParameter& its = number.parameter;
       for (const FreeNumber& rival : rivals)
         if (rival.parameter.name == its.name)
-          error = std::max(error, 0.5 * std::abs(its.scaled(rival.parameter.start) - its.scaled(its.start)));
-      const bool told = error < 1.0;
+          errors[i] = std::max(errors[i], 0.5 * std::abs(its.scaled(rival.parameter.start) - its.scaled(its.start)));
+      const bool told = errors[i] < 1.0;
       if (!told && number.sensor && !number.is_least()) raise(best, number);
       const double unit = its.scale == Scale::linear ? 1.0 : its.start;
-      best.numbers.push_back({its.name, its.start, told ? unit * error : infinity, number.is_least(), number.sensor});
+      best.numbers.push_back(
+          {its.name, its.start, told ? unit * errors[i] : infinity, number.is_least(), number.sensor});
     }
     return best;
   }
@@ -469,19 +475,33 @@ class Fitter {
     return error;
   }
 
-  /// The numbers without a sensor's noise, the others searched anew, if all rows lose less than two nats by it: where
-  /// the target's may stand for it, they are as likely.
-  void add_rivals(const Fitted& found, const FreeNumber& noise, std::vector<FreeNumber>& rivals) const {
+  /// The least loss with a number times a factor, or of a linear one its logarithm more, the others searched anew.
+  /// Where all rows lose less than two nats by it those are as likely, and rivals.
+  double add_rival(const Fitted& found, const FreeNumber& number, double factor,
+                   std::vector<FreeNumber>& rivals) const {
     constexpr double worth_a_search = 0.5;  // nats a row: great steps end so near
-    FilterSettings without = found.settings;
-    noise.set(without, nothing * noise.parameter.start);
+    const FitParameter& its = number.parameter;
+    FilterSettings other = found.settings;
+    number.set(other, its.value(its.scaled(its.start) + std::log(factor)));
     Fitter others = *this;
-    others.held_ = noise.parameter.name;
-    Fitted rival = others.from(without);
+    others.held_ = its.name;
+    Fitted rival = others.from(other);
     others.scan(rival, true);
     if (rival.fitted < found.fitted + worth_a_search) rival = others.descended(std::move(rival), 0);
     if (rival.fitted < found.fitted + 2.0 / static_cast<double>(data_.measurements))
       std::ranges::move(free_numbers(rival.settings, data_, options_), std::back_inserter(rivals));
+    return rival.fitted;
+  }
+
+  /// The standard error of a number that a parabola does not tell, by what the rows lose at e times it and at an e-th;
+  /// infinite where that is less than two nats on a side.
+  double profiled(const Fitted& found, const FreeNumber& number, std::vector<FreeNumber>& rivals) const {
+    if (options_.objective == Objective::rmse) return infinity;
+    double lost = infinity;
+    for (const double side : {1.0, -1.0})
+      lost = std::min(lost, add_rival(found, number, std::exp(side), rivals) - found.fitted);
+    lost *= static_cast<double>(data_.measurements);
+    return lost < 2.0 ? infinity : std::sqrt(0.5 / lost);
   }
 
   /// Whether the rows lose no more without a noise, within a standard error: the curvature does not tell, as both it
