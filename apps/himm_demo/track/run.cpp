@@ -307,16 +307,20 @@ class TrackRun {
     if (!keeps_all_ && target.rows.size() > 2) target.rows.pop_front();  // a start may wait for the row after it
     auto news = shares_.by(target.rank, [&] { return followed(target, again); });
     if (!news) return;
-    std::optional<double> least;    // of the filters' NIS
-    std::vector<std::size_t> lost;  // who does not expect the row
+    std::optional<double> least;                       // of the filters' NIS
+    std::vector<std::pair<std::size_t, double>> lost;  // who does not expect the row, by its NIS
     for (Said& said : news->said) {
       const auto nis = said.point.tag + 1 == tally.rows ? said.point.nis : std::nullopt;
       if (nis && (!least || *nis < *least)) least = nis;
-      if (nis && *nis > Outliers::limit) lost.push_back(said.filter);
+      if (nis && *nis > Outliers::limit) lost.emplace_back(said.filter, *nis);
       tell(target, said);
     }
-    for (const std::size_t f : lost)
-      if (*least <= Outliers::limit) outcome_.filters[f].lost.add(target.rows.back().line);
+    for (const auto& [f, nis] : lost) {
+      if (*least > Outliers::limit) break;
+      FilterOutcome& filter = outcome_.filters[f];
+      filter.lost.add(target.rows.back().line);
+      if (nis > Outliers::by_far) filter.lost_by_far.add(target.rows.back().line);
+    }
     stepped(target.rows.back(), target.tallies, news->tallies);
     if (least && *least > Outliers::limit) {
       Outliers& outliers = outcome_.outliers;

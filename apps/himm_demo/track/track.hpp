@@ -209,6 +209,7 @@ struct FilterOutcome {
   std::size_t rejected = 0;                                ///< by the gate
   std::size_t restarts = 0;                                ///< after a gap
   Counted lost;                                            ///< measurements that it does not expect so, but another one
+  Counted lost_by_far;                                     ///< those of them at which it is elsewhere
   std::map<std::string, std::vector<ModeStay>> histories;  ///< of each track, if the filter is to explain
 };
 
@@ -222,7 +223,7 @@ struct Validity {
 /// Measurements that no filter expects: an NIS above 30 is beyond the 0.999998 quantile of χ² with three degrees of
 /// freedom.
 struct Outliers {
-  static constexpr double limit = 30.0;
+  static constexpr double limit = 30.0, by_far = 300.0;
   std::size_t count = 0, worst_line = 0;
   double worst_nis = 0.0;
 };

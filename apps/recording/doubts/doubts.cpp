@@ -193,6 +193,8 @@ double Doubts::apart(double sigma_position, double sigma_velocity) const {
   return parts_->rates.apart(parts_->clocks.step(), sigma_position, sigma_velocity);
 }
 
+bool Doubts::from_one_that_moves() const { return parts_->stations.from_one_that_moves(); }
+
 double Doubts::rounding(const RecordingReader& recording) const {
   double greatest = 0.0;
   for (std::size_t i = 0; i < 2 && recording.located(); ++i)

@@ -31,6 +31,9 @@ class Doubts {
   /// How far positions and the ways by velocities that change are apart, in standard deviations that are expected.
   double apart(double sigma_position, double sigma_velocity) const;
 
+  /// Whether bearings come from one place that moves.
+  bool from_one_that_moves() const;
+
   /// Sentences, each with the name or the option that mends it.
   std::vector<std::string> sentences(const RecordingReader& recording) const;
 

@@ -32,7 +32,19 @@ void Stations::see(const AnyPlot& plot, const std::optional<Vector<3>>& referenc
     if (cross(before->from, before->azimuth, from, azimuth)) ++crossing_;
     if (cross(before->from, north - before->azimuth, from, north - azimuth)) ++crossing_other_;
   }
+  const Eigen::Array3d here(from.data());
+  const double step = before ? (here - Eigen::Array3d(before->from.data())).matrix().norm() : 0.0;
+  ++places_.count;
+  if (step > 0.0) ++places_.moves;
+  places_.way += step;
+  places_.least = places_.least.min(here);
+  places_.greatest = places_.greatest.max(here);
   before = {from, azimuth};
+}
+
+bool Stations::from_one_that_moves() const {
+  const auto& [count, moves, way, least, greatest] = places_;
+  return 2 * moves > count && 10.0 * way < static_cast<double>(count) * (greatest - least).matrix().norm();
 }
 
 void Stations::see_path(const Vector<3>& at, const AnyPlot& plot, Path& path) {
@@ -77,7 +89,7 @@ void Stations::see_other(const std::string& sensor, const Spoke& last, const Spo
 
 /// What accounts for most of it, in each quarter of the rows, since errors that last come and go: a shift, or so many
 /// times something of the row. Empty if nothing does.
-std::string Stations::why_apart(const std::vector<Off>& rows, int axes) {
+std::string Stations::why_apart(std::vector<Off> rows, int axes) {
   const auto median_of = [](std::span<const Off> some, const auto& number) {
     std::vector<double> all;
     for (const Off& row : some)
@@ -107,7 +119,17 @@ std::string Stations::why_apart(const std::vector<Off>& rows, int axes) {
                       return Vector<3>(by, -by, 0.0);
                     }});
   const auto across = [](const Vector<3>& at) { return Vector<3>(-at[1], at[0], 0.0); };
+  // From row to row the velocity of a slow target is mostly noise, and that of a quick one turns.
+  constexpr std::size_t about = 8;
+  for (std::size_t i = about; i + about < rows.size(); ++i) {
+    rows[i].way = Vector<3>::Zero();
+    for (std::size_t k = i - about; k <= i + about; ++k) rows[i].way += rows[k].velocity / (2.0 * about + 1.0);
+  }
   consider("{:.2g} s too {} in its times", 1.0, [](const Off& row) { return row.velocity; });
+  const Cause by_rows = causes.back();
+  causes.pop_back();
+  consider("{:.2g} s too {} in its times", 1.0, [](const Off& row) { return row.way; });
+  if (left_of(rows, by_rows) < left_of(rows, causes.back())) causes.back() = by_rows;
   if (rows.front().from_radar) {
     const auto from = [](const Off& row) -> Vector<3> { return row.from_radar.value_or(Vector<3>::Zero()); };
     consider("turned by {:.2g}° about where it stands", degree, [=](const Off& row) { return across(from(row)); });

@@ -30,6 +30,9 @@ class Stations {
   void see_other(const std::string& sensor, const Spoke& last, const Spoke& now, const Vector<3>& bend,
                  const std::string& other, const Spoke& told);
 
+  /// Whether bearings come from one place that moves: from row to row by little, rather than between two that stand.
+  bool from_one_that_moves() const;
+
   /// The distance of sensors and positions from where they are counted, in m.
   double farthest() const { return farthest_; }
 
@@ -42,8 +45,9 @@ class Stations {
     Vector<3> by, velocity, at;
     std::optional<Vector<3>> from_radar;  ///< where it is from the sensor, of a radar
     double bend;                          ///< squared, of the other one's own last position off its own way
+    Vector<3> way = velocity;             ///< the velocity of the rows about it
   };
-  static std::string why_apart(const std::vector<Off>& rows, int axes);
+  static std::string why_apart(std::vector<Off> rows, int axes);
   std::string shifted() const;
   void say_azimuths(Say& say, const RecordingReader& recording) const;
   void say_truth(Say& say, double step) const;
@@ -52,6 +56,11 @@ class Stations {
   std::size_t azimuths_ = 0;
   double as_read_ = 0.0, other_way_ = 0.0, radians_ = 0.0;     // sums of cosines of azimuths' errors
   std::size_t pairs_ = 0, crossing_ = 0, crossing_other_ = 0;  // bearings of two places
+  struct {
+    std::size_t count = 0, moves = 0;
+    double way = 0.0;
+    Eigen::Array3d least = Eigen::Array3d::Constant(infinity), greatest = -least;
+  } places_;  // from which bearings were
   struct {
     std::size_t count = 0;
     std::array<double, 2> sums{};
