@@ -218,7 +218,7 @@ class Reporter {
     const std::size_t lost_rows = loser->lost.rows;
     const bool many_lost = lost_rows >= 5 && 20 * lost_rows >= outcome_.measurements && lost_rows > outliers.count;
     const auto& [lost, first_lost] = many_lost ? loser->lost : stray->lost_by_far;
-    warn(lost > 0,
+    warn(many_lost || (lost > 0 && outliers.count == 0),
          "{}:{}: filter '{}' does not expect this measurement, though another filter does; so it is with {} of {} (NIS "
          "above {}); raise its sigma_w, or see what the other one has that it lacks",
          file_, first_lost, settings_of(*(many_lost ? loser : stray)).name, lost, outcome_.measurements,

@@ -284,7 +284,7 @@ TuneData read_tune_data(const TuneOptions& options, const FilterSettings& settin
   if (change > 0.0 && change < 1.7e-5 * sigma)
     data.notes.push_back(fmt::format(
         "positions change by {:.2g} m from row to row, and sigma_position_m begins at {:.2g} m: from so far away "
-        "nothing is found; begin nearer, with --set sigma_position_m={:.1g} and a sigma_w as small",
+        "little may be found; begin nearer, with --set sigma_position_m={:.1g} and a sigma_w as small",
         change, sigma, change));
   if (data.measurements < fewest_in_all)
     throw InputError(

@@ -403,16 +403,19 @@ class Fitter {
       if (!(error < 1.0)) error = profiled(best, number, rivals);
     }
     for (std::size_t i = 0; i < all.size(); ++i) {
-      FreeNumber& number = all[i];
-      const FitParameter& its = number.parameter;
+      const FitParameter& its = all[i].parameter;
       for (const FreeNumber& rival : rivals)
         if (rival.parameter.name == its.name)
           errors[i] = std::max(errors[i], 0.5 * std::abs(its.scaled(rival.parameter.start) - its.scaled(its.start)));
-      const bool told = errors[i] < 1.0;
-      if (!told && number.sensor && !number.is_least()) raise(best, number);
-      const double unit = its.scale == Scale::linear ? 1.0 : its.start;
-      best.numbers.push_back(
-          {its.name, its.start, told ? unit * errors[i] : infinity, number.is_least(), number.sensor});
+    }
+    for (std::size_t i = 0; i < all.size(); ++i)
+      if (!(errors[i] < 1.0) && all[i].sensor && !all[i].is_least()) raise(best, all[i].parameter.name);
+    for (std::size_t i = 0; const FreeNumber& number : free_numbers(best.settings, data_, options_)) {
+      if (number.relative) continue;
+      const auto& [name, start, scale, step, reach] = number.parameter;
+      const double error = errors[i++];
+      best.numbers.push_back({name, start, error < 1.0 ? (scale == Scale::linear ? 1.0 : start) * error : infinity,
+                              number.is_least(), number.sensor});
     }
     return best;
   }
@@ -475,19 +478,23 @@ class Fitter {
     return error;
   }
 
-  /// The least loss with a number times a factor, or of a linear one its logarithm more, the others searched anew.
-  /// Where all rows lose less than two nats by it those are as likely, and rivals.
-  double add_rival(const Fitted& found, const FreeNumber& number, double factor,
-                   std::vector<FreeNumber>& rivals) const {
+  /// The settings with a number times a factor, or of a linear one its logarithm more, the others searched anew.
+  Fitted held(const Fitted& found, const FreeNumber& number, double factor) const {
     constexpr double worth_a_search = 0.5;  // nats a row: great steps end so near
     const FitParameter& its = number.parameter;
     FilterSettings other = found.settings;
     number.set(other, its.value(its.scaled(its.start) + std::log(factor)));
     Fitter others = *this;
     others.held_ = its.name;
-    Fitted rival = others.from(other);
-    others.scan(rival, true);
-    if (rival.fitted < found.fitted + worth_a_search) rival = others.descended(std::move(rival), 0);
+    Fitted result = others.from(other);
+    others.scan(result, true);
+    return result.fitted < found.fitted + worth_a_search ? others.descended(std::move(result), 0) : result;
+  }
+
+  /// The least loss so; where all rows lose less than two nats by it, those numbers are as likely, and rivals.
+  double add_rival(const Fitted& found, const FreeNumber& number, double factor,
+                   std::vector<FreeNumber>& rivals) const {
+    const Fitted rival = held(found, number, factor);
     if (rival.fitted < found.fitted + 2.0 / static_cast<double>(data_.measurements))
       std::ranges::move(free_numbers(rival.settings, data_, options_), std::back_inserter(rivals));
     return rival.fitted;
@@ -517,15 +524,19 @@ class Fitter {
   }
 
   /// A sensor's noise as great as it may be where the rows lose half a nat by it: less would be stated for no reason.
-  void raise(Fitted& found, FreeNumber& noise) const {
-    constexpr std::size_t most_doublings = 40;
+  void raise(Fitted& found, const std::string& name) const {
+    constexpr std::size_t most_steps = 80;
+    constexpr double step = std::numbers::sqrt2;
     const double most = found.fitted + 0.5 / static_cast<double>(data_.measurements);
-    for (std::size_t k = 0; k < most_doublings; ++k) {
+    for (std::size_t k = 0; k < most_steps; ++k) {
+      const auto numbers = free_numbers(found.settings, data_, options_);
+      const FreeNumber& noise =
+          *std::ranges::find(numbers, name, [](const FreeNumber& number) { return number.parameter.name; });
       Fitted raised = found;
-      noise.set(raised.settings, 2.0 * noise.parameter.start);
+      noise.set(raised.settings, step * noise.parameter.start);
       raised.fitted = value(raised.settings);
+      if (!(raised.fitted < most)) raised = held(found, noise, step);
       if (!(raised.fitted < most)) return;
-      noise.parameter.start *= 2.0;
       found = raised;
     }
   }
