@@ -131,7 +131,10 @@ void read_sensor(const Settings& settings, Accuracy& sensor) {
     throw settings.error("at", "one place, in metres or by latitude_deg and longitude_deg", "leave out one of both");
   if (in_metres) sensor.place = {};
   if (on_earth) sensor.place.at_m.clear();
-  for (const auto& key : accuracy_keys()) key.read(settings, sensor);
+  for (const auto& key : accuracy_keys()) {
+    key.read(settings, sensor);
+    if (settings.has(key.name)) sensor.given.insert(key.name);
+  }
   if (on_earth && !(sensor.place.latitude_deg && sensor.place.longitude_deg))
     throw settings.error(sensor.place.latitude_deg       ? "latitude_deg"
                          : settings.has("longitude_deg") ? "longitude_deg"

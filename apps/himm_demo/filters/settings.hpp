@@ -30,6 +30,7 @@ struct Accuracy {
   std::optional<double> velocity_mps;    ///< of each component; without it a velocity is not taken for a measurement
   std::optional<double> range_rate_mps;  ///< of a radar's; likewise
   SensorPlace place;                     ///< the same for all filters
+  std::set<std::string> given{};         ///< the keys that were
 };
 
 /// Everything that one filter is made of: that of the library's target, and how measurements come to it.

@@ -224,8 +224,9 @@ class TrackRun {
     }
     for (const FilterSettings& filter : filters_) {
       const Accuracy& own = filter.accuracy_of(sensor);
-      by_default[0] &= own.position_m == usual.position_m;
-      for (const std::size_t k : {1U, 2U}) by_default[k] &= own.radar[k - 1] == usual.radar[k - 1];
+      by_default[0] &= own.position_m == usual.position_m && !own.given.contains("sigma_position_m");
+      by_default[1] &= own.radar[0] == usual.radar[0] && !own.given.contains("sigma_range_m");
+      by_default[2] &= own.radar[1] == usual.radar[1] && !own.given.contains("sigma_azimuth_deg");
     }
     for (std::size_t k = 0; k < by_default.size(); ++k) outcome_.by_default[k] += by_default[k] ? 1U : 0U;
   }
