@@ -411,6 +411,15 @@ class TrackRun {
     return said;
   }
 
+  void lean(std::array<Lean, 8>& leans, const AnyPlot& plot, std::span<const double> innovation) const {
+    for (std::size_t i = 0; i < innovation.size(); ++i) leans[i].add(innovation[i]);
+    if (innovation.empty() || axes_ == 1 || axes_seen(plot, axes_) < axes_ || !is_moving(plot, axes_)) return;
+    const double x = *component_of(plot, axes_), y = component_of(plot, axes_ + 1).value_or(0.0), v = std::hypot(x, y);
+    if (!(v > 0.0)) return;
+    leans[6].add((innovation[0] * x + innovation[1] * y) / v);
+    leans[7].add((innovation[1] * x - innovation[0] * y) / v);
+  }
+
   /// Takes down what a filter says of a row.
   void tell(Target& target, Said& said) {
     ++target.tally.estimates;
@@ -420,7 +429,8 @@ class TrackRun {
     const std::size_t n = point.mean.size();
     const AnyPlot plot = believed(filter, row.sensor, row.plot, axes_);
     if (!row.predicted) {
-      if (point.nis && axes_seen(plot, axes_) == axes_ && is_moving(plot, axes_)) {
+      lean(outcome_.filters[said.filter].leans[row.sensor], plot, point.normalized_innovation);
+      if (!point.normalized_innovation.empty() && axes_seen(plot, axes_) == axes_ && is_moving(plot, axes_)) {
         std::vector<double>& before = target.innovations[{said.filter, row.sensor}];
         const std::span own = std::span(point.normalized_innovation).first(static_cast<std::size_t>(axes_));
         outcome_.filters[said.filter].with_velocity.add(own, before);

@@ -6,6 +6,20 @@
 #include "result/braille.hpp"
 
 namespace sigmax::apps {
+
+void Lean::add(double innovation) {
+  constexpr std::size_t together = 32;
+  some_.add(innovation);
+  if (some_.count() == together) means_.add(std::exchange(some_, {}).mean());
+}
+
+double Lean::mean() const {
+  constexpr std::size_t fewest = 4;
+  constexpr double much = 0.3, sure = 3.0;
+  if (means_.count() < fewest) return 0.0;
+  const auto [mean, half_width] = means_.interval();
+  return std::abs(mean) > std::max(much, sure * half_width) ? mean : 0.0;
+}
 namespace {
 
 template <class Counts>
@@ -281,6 +295,26 @@ class Reporter {
          "whether it has the same axes and times, and, if so, raise sigma_w or the sensor's sigmas",
          file_, error, settings_of(*farthest).name, length_of(farthest->sums[0].sigma),
          measured > 0.0 && measured < error ? fmt::format("; the measurements are {:.3g} m off", measured) : "");
+    for (const auto& [sensor, leans] : outcome_.filters.front().leans) {
+      if (warnings.size() > causes) break;
+      double by = 0.0;
+      for (std::size_t k = 0; k < leans.size(); ++k) {
+        const auto size = [&](const FilterOutcome& one) {
+          const auto own = one.leans.find(sensor);
+          return own == one.leans.end() ? 0.0 : std::abs(own->second[k].mean());
+        };
+        by = std::max(by, std::ranges::min(each(outcome_.filters, size)));
+      }
+      warn(by > 0.0,
+           "{}: what {} tells is to one side of what every filter expects, by {:.2g} standard deviations on the "
+           "average, "
+           "so that the estimates are farther off than they say: {}",
+           file_, sensor.empty() ? "a row" : fmt::format("sensor '{}'", sensor), by,
+           outcome_.sensors.size() > 1 ? "see whether the sensors' places, north, clocks and scales agree"
+           : outcome_.filters.front().with_velocity.count() > 0
+               ? "see whether positions and velocities have one scale, the same axes and one clock"
+               : "raise sigma_w, or add a model that moves as the target does");
+    }
     // A random mode keeps to its share, as far as chance lets it; a fuzzy one of the right settings comes to 86 %.
     const auto is_too_sure = [&](const FilterOutcome& one) {
       const InnovationTally& tally = one.sums[0].innovations;
@@ -292,10 +326,8 @@ class Reporter {
     if (causes == 0 && warnings.size() == (few_outliers ? 1 : 0) && too_sure != outcome_.filters.end())
       warn(true,
            "{}: {:.0f} % of the measurements are where filter '{}' expects 95 %: raise sigma_w or the sensor's "
-           "sigmas{}; "
-           "himm_demo tune fits them",
-           file_, 100.0 * too_sure->sums[0].innovations.share_inside(), settings_of(*too_sure).name,
-           outcome_.sensors.size() > 1 ? ", or see whether the sensors' places, north and clocks agree" : "");
+           "sigmas; himm_demo tune fits them",
+           file_, 100.0 * too_sure->sums[0].innovations.share_inside(), settings_of(*too_sure).name);
     for (const auto& filter : filters_)
       for (const auto& [sensor, own] : filter.sensors)
         warn(!outcome_.sensors.contains(sensor), "key 'sensor.{}' of filter '{}': no row of {} is of that sensor",

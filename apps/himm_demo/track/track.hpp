@@ -202,14 +202,26 @@ struct Sums {
 };
 using SumsByPart = std::array<Sums, parts.size()>;
 
+/// Whether innovations lean to one side, by means of some that follow each other.
+class Lean {
+ public:
+  void add(double innovation);
+  /// How far on the average, in standard deviations; 0 where that is little, or chance.
+  double mean() const;
+
+ private:
+  RunningMean some_, means_;
+};
+
 /// What one filter made of the recording.
 struct FilterOutcome {
   SumsByPart sums;
-  InnovationTally with_velocity{};                         ///< of positions, in rows with a velocity
-  std::size_t rejected = 0;                                ///< by the gate
-  std::size_t restarts = 0;                                ///< after a gap
-  Counted lost;                                            ///< measurements that it does not expect so, but another one
-  Counted lost_by_far;                                     ///< those of them at which it is elsewhere
+  InnovationTally with_velocity{};                     ///< of positions, in rows with a velocity
+  std::map<std::string, std::array<Lean, 8>> leans{};  ///< of each sensor's quantities, and along and across the way
+  std::size_t rejected = 0;                            ///< by the gate
+  std::size_t restarts = 0;                            ///< after a gap
+  Counted lost;                                        ///< measurements that it does not expect so, but another one
+  Counted lost_by_far;                                 ///< those of them at which it is elsewhere
   std::map<std::string, std::vector<ModeStay>> histories;  ///< of each track, if the filter is to explain
 };
 

@@ -200,6 +200,21 @@ FilterSettings with(FilterSettings settings, const std::vector<FreeNumber>& numb
   return settings;
 }
 
+/// Models of a fixed step as those of continuous time, which leave open what a way of so many seconds was, where the
+/// velocities at its ends are known: a sensor's noise may stand for that. Whether there were any.
+bool continue_motions(FilterSettings& settings, double step_s) {
+  bool any = false;
+  for (MotionChoice& motion : settings.motions) {
+    const bool by_velocity = motion.name == "dwna";
+    if (!by_velocity && motion.name != "dwpa") continue;
+    motion.name = by_velocity ? "cwna" : "cwpa";
+    motion[MotionParameter::sigma_w] *= std::pow(step_s, by_velocity ? 0.5 : -0.5);
+    any = true;
+  }
+  settings.models = names_of(settings.motions);
+  return any;
+}
+
 /// Numbers that another filter was given, its sensors' alone or all, to begin with.
 void borrow(FilterSettings& settings, const FilterSettings& from, bool sensors_alone, const TuneData& data,
             const TuneOptions& options) {
@@ -393,10 +408,12 @@ class Fitter {
     std::vector<FreeNumber> rivals;
     for (const FreeNumber& number : all)
       if (number.sensor && number.noise && !number.is_least()) add_rival(best, number, nothing, rivals);
+    const std::set<std::string> tied = add_rivals_within_steps(best, rivals);
     std::vector<double> errors;
     for (const FreeNumber& number : all) {
       double& error = errors.emplace_back(infinity);
-      if (number.is_least() || (number.noise && may_be_nothing(best, number))) continue;
+      if (number.is_least() || tied.contains(number.parameter.name) || (number.noise && may_be_nothing(best, number)))
+        continue;
       for (std::size_t i = 0; i < numbers.size() && now.size() == numbers.size(); ++i)
         if (numbers[i].parameter.name == number.parameter.name && shape.error[i] < 1.0)
           error = as_lost(best, now, shape.ridges[i], shape.error[i]);
@@ -491,13 +508,39 @@ class Fitter {
     return result.fitted < found.fitted + worth_a_search ? others.descended(std::move(result), 0) : result;
   }
 
+  /// Whether all rows lose less than two nats by it.
+  bool is_as_likely(const Fitted& rival, const Fitted& found) const {
+    return rival.fitted < found.fitted + 2.0 / static_cast<double>(data_.measurements);
+  }
+
   /// The least loss so; where all rows lose less than two nats by it, those numbers are as likely, and rivals.
   double add_rival(const Fitted& found, const FreeNumber& number, double factor,
                    std::vector<FreeNumber>& rivals) const {
     const Fitted rival = held(found, number, factor);
-    if (rival.fitted < found.fitted + 2.0 / static_cast<double>(data_.measurements))
+    if (is_as_likely(rival, found))
       std::ranges::move(free_numbers(rival.settings, data_, options_), std::back_inserter(rivals));
     return rival.fitted;
+  }
+
+  /// The same of models of continuous time in place of those of a fixed step, which are fitted. Returns the sensors'
+  /// noises that may be nothing by them, or are another half of themselves away.
+  std::set<std::string> add_rivals_within_steps(const Fitted& found, std::vector<FreeNumber>& rivals) const {
+    constexpr double away = 1.5;
+    std::set<std::string> tied;
+    FilterSettings other = found.settings;
+    if (!continue_motions(other, data_.step_s)) return tied;
+    const Fitted rival = searched(from(other));
+    if (!is_as_likely(rival, found)) return tied;
+    const auto now = free_numbers(found.settings, data_, options_);  // of sensors, the same at the same places
+    const auto then = free_numbers(rival.settings, data_, options_);
+    for (std::size_t i = 0; i < now.size(); ++i) {
+      if (!now[i].sensor) continue;
+      rivals.push_back(then[i]);
+      const double times = now[i].parameter.start / then[i].parameter.start;
+      if (now[i].noise && (std::max(times, 1.0 / times) > away || may_be_nothing(rival, then[i])))
+        tied.insert(now[i].parameter.name);
+    }
+    return tied;
   }
 
   /// The standard error of a number that a parabola does not tell, by what the rows lose at e times it and at an e-th;

@@ -107,9 +107,11 @@ void Clocks::say_cut(Say& say, double moved) const {
   const auto& [shorter, ways] = steps[0];
   const auto& [longer, other_ways] = steps[1];
   const auto mean = [](const auto& some) { return some.second / static_cast<double>(some.first); };
+  std::size_t all = 0;  // what tells its place after a way has many steps
+  for (const auto& [step, some] : steps) all += some.first;
   const double as_far = 1.0 + 0.3 * (longer / shorter - 1.0);
-  say(std::min(ways.first, other_ways.first) >= 2 * few && longer == shorter + 1.0 &&
-          mean(other_ways) < as_far * mean(ways),
+  say(std::min(ways.first, other_ways.first) >= 2 * few && 10 * (ways.first + other_ways.first) > 9 * all &&
+          longer == shorter + 1.0 && mean(other_ways) < as_far * mean(ways),
       "the target comes {:.3g} m in a step of {:.6g} s, and {:.3g} m in one of {:.6g} s: times seem to be cut to whole "
       "seconds; write them in full",
       mean(ways), shorter, mean(other_ways), longer);

@@ -71,7 +71,7 @@ struct TargetPoint {
   std::vector<double> weights;     ///< of the modes
   std::size_t most_likely_mode = 0;
   std::optional<double> nis;                  ///< of the step, if it had a measurement that passed the gate
-  std::vector<double> normalized_innovation;  ///< the same in its own standard deviations; empty where there is no NIS
+  std::vector<double> normalized_innovation;  ///< the same in its own standard deviations; none if smoothed
   /// How well the step's measurement was predicted, as MultipleModelFilter has them, whether it passed the gate or not.
   std::optional<double> log_evidence, log_score;
 };
