@@ -497,7 +497,9 @@ class TrackRun {
       const bool rejected = after[f].rejected > before[f].rejected;
       if (rejected) ++refusing;
       if (sinks_.page && rejected) sinks_.page->rejected(row, f);
-      if (sinks_.page && before[f].starts > 0 && after[f].starts > before[f].starts) sinks_.page->restarted(row, f);
+      const bool restarted = before[f].starts > 0 && after[f].starts > before[f].starts;
+      if (sinks_.page && restarted) sinks_.page->restarted(row, f);
+      if (rejected && restarted) outcome_.filters[f].given_up.add(row.line);
     }
     if (refusing == filters_.size()) outcome_.refused_by_all.add(row.line);
   }

@@ -247,6 +247,13 @@ class Reporter {
          worst.track.empty() ? "" : fmt::format(" of track '{}'", worst.track),
          worst.many > 1 ? fmt::format(" (and of {} other filters or tracks too many)", worst.many - 1) : "",
          (1.0 - refusing.gate_probability) * static_cast<double>(worst.measurements));
+    const auto given_up = most(&FilterOutcome::given_up);
+    warn(
+        given_up->given_up.rows > 0 && worst.many == 0,
+        "{}:{}: filter '{}' begins anew here, as its gate turned the rows just before away; such starts are {} in all: "
+        "the target moves as its models do not, and estimates before are farther off than they say; raise sigma_w or "
+        "gate_probability, or add a model",
+        file_, given_up->given_up.first_line, settings_of(*given_up).name, given_up->given_up.rows);
     const auto& [senseless, first_senseless] = recording_.senseless();
     warn(senseless > 0,
          "{}:{}: no measurement can be that great; {} such {} as missed; leave the cells empty where there is none",

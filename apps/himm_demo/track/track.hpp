@@ -220,6 +220,7 @@ struct FilterOutcome {
   std::map<std::string, std::array<Lean, 8>> leans{};  ///< of each sensor's quantities, and along and across the way
   std::size_t rejected = 0;                            ///< by the gate
   std::size_t restarts = 0;                            ///< after a gap
+  Counted given_up;                                    ///< tracks, after rejections in a row
   Counted lost;                                        ///< measurements that it does not expect so, but another one
   Counted lost_by_far;                                 ///< those of them at which it is elsewhere
   std::map<std::string, std::vector<ModeStay>> histories;  ///< of each track, if the filter is to explain
