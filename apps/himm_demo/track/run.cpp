@@ -411,6 +411,7 @@ class TrackRun {
     return said;
   }
 
+  /// By quantity, and of a position with a velocity along and across the way.
   void lean(std::array<Lean, 8>& leans, const AnyPlot& plot, std::span<const double> innovation) const {
     for (std::size_t i = 0; i < innovation.size(); ++i) leans[i].add(innovation[i]);
     if (innovation.empty() || axes_ == 1 || axes_seen(plot, axes_) < axes_ || !is_moving(plot, axes_)) return;

@@ -314,8 +314,7 @@ class Reporter {
       }
       warn(by > 0.0,
            "{}: what {} tells is to one side of what every filter expects, by {:.2g} standard deviations on the "
-           "average, "
-           "so that the estimates are farther off than they say: {}",
+           "average, so that the estimates are farther off than they say: {}",
            file_, sensor.empty() ? "a row" : fmt::format("sensor '{}'", sensor), by,
            outcome_.sensors.size() > 1 ? "see whether the sensors' places, north, clocks and scales agree"
            : outcome_.filters.front().with_velocity.count() > 0

@@ -522,8 +522,7 @@ TuneFindings tune_and_report(const FilterSettings& filter, const TuneData& data,
                       widened));
     if (const FilterSettings& best = tuned.best().settings; best.fuzzy && best.models.size() > 1)
       say("\nThe numbers of a fuzzy mode are those by which its best mode alone predicts best: of a target whose mode "
-          "is "
-          "random they may be farther off than their standard errors say.\n");
+          "is random they may be farther off than their standard errors say.\n");
     if (const std::string truth = text_of_truth(before, *after); !truth.empty()) say(truth);
     if (std::ranges::any_of(tuned.best().numbers, [](const FittedNumber& number) {
           return number.sensor && !number.at_rounding && std::isinf(number.error);
