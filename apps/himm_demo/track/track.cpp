@@ -302,10 +302,11 @@ class Reporter {
          "whether it has the same axes and times, and, if so, raise sigma_w or the sensor's sigmas",
          file_, error, settings_of(*farthest).name, length_of(farthest->sums[0].sigma),
          measured > 0.0 && measured < error ? fmt::format("; the measurements are {:.3g} m off", measured) : "");
-    for (const auto& [sensor, leans] : outcome_.filters.front().leans) {
+    for (const auto& named : outcome_.filters.front().leans) {
+      const std::string& sensor = named.first;
       if (warnings.size() > causes) break;
       double by = 0.0;
-      for (std::size_t k = 0; k < leans.size(); ++k) {
+      for (std::size_t k = 0; k < named.second.size(); ++k) {
         const auto size = [&](const FilterOutcome& one) {
           const auto own = one.leans.find(sensor);
           return own == one.leans.end() ? 0.0 : std::abs(own->second[k].mean());
