@@ -26,6 +26,7 @@ struct Tally {
   std::size_t rejected = 0;
   std::size_t judged = 0;    ///< decided rows whose class is known
   std::size_t excluded = 0;  ///< rows that excluded every class
+  RunningMean loss{};        ///< −log of the probability of a class that is known, of a classifier with probabilities
 
   std::optional<double> accuracy() const {
     if (judged == 0) return std::nullopt;
@@ -281,6 +282,8 @@ Classified classify_all(const ClassifyOptions& options, const LearnedModel& mode
                                     Tally& tally, ShownRow* show) {
     const Decision decision = decide(belief);
     const bool rejected = decision.margin < options.least_margin;
+    if constexpr (std::same_as<Kind, Random>)
+      if (truth) tally.loss.add(-std::log(std::max(belief[*truth], std::numeric_limits<double>::min())));
     if (rejected) {
       ++tally.rejected;
     } else {
@@ -463,6 +466,13 @@ void run_classify(const ClassifyOptions& options) {
   });
   say_unrecognised(labels_of(pattern), found.rows_of_class, recognised, result);
   say_beaten(labels_of(pattern), found.rows_of_class, recognised, result);
+  for (const Tally& tally : found.tallies)
+    if (tally.loss.count() > 0)
+      say_worse_than_shares(
+          tally.name, tally.loss.mean(), found.rows_of_class,
+          ", as where several columns tell the same, the model's classes have other shares than these "
+          "rows, or it was learned from few rows",
+          result);
   say_otherwise(model, found, result);
   if (options.explain)
     for (const ShownRow& row : found.shown) {

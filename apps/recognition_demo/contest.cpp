@@ -122,6 +122,18 @@ void say_beaten(const std::vector<std::string>& classes, const std::vector<std::
                in_quotes(classes[static_cast<std::size_t>(most - rows.begin())]), list_of(worse));
 }
 
+void say_worse_than_shares(const std::string& contestant, double log_loss, const std::vector<std::size_t>& rows,
+                           std::string_view cause, Result& result) {
+  const double of_shares = sum_of(rows, [all = sum_of(rows)](std::size_t of_class) {
+    const double share = static_cast<double>(of_class) / all;
+    return share > 0.0 ? -share * std::log(share) : 0.0;
+  });
+  result.say({{log_loss > of_shares,
+               fmt::format("{}: the shares of the classes alone have a log-loss of {:.3f}: its probabilities are worse "
+                           "than these{}",
+                           contestant, of_shares, cause)}});
+}
+
 Result result_of_contest(std::string title, const OutputOptions& output, const std::vector<Contestant>& contestants) {
   constexpr std::size_t widest_words = 120;  // longer lines are hard to read
   Result result(output);

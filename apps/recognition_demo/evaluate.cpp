@@ -299,20 +299,15 @@ void say_scores(const DataTable& data, const Results& results, const EvaluateOpt
   const double most_often = static_cast<double>(*most) / static_cast<double>(data.size());
   const auto recognised = each(results.outcomes, &Outcome::recognised);
   say_beaten(data.classes, data.rows_of_class, recognised, result);
-  const double of_shares = sum_of(data.rows_of_class, [&](std::size_t rows) {
-    const double share = static_cast<double>(rows) / static_cast<double>(data.size());
-    return -share * std::log(share);
-  });
   for (const Outcome& outcome : results.outcomes)
-    if (const auto* const random = std::get_if<Evaluation<Random>>(&outcome.evaluation);
-        random != nullptr && random->log_loss() > of_shares)
-      result.say(
-          "{}: the shares of the classes alone have a log-loss of {:.3f}: its probabilities are worse than these{}",
-          outcome.name, of_shares,
-          options.learning.equal_prior ? ", which --equal-prior leaves out"
-          : data.columns.size() > 1 ? ", and too sure, as where several columns tell the same, or a value or bin has "
-                                      "few rows of a class (fewer --bins)"
-                                    : "");
+    if (const auto* const random = std::get_if<Evaluation<Random>>(&outcome.evaluation))
+      say_worse_than_shares(outcome.name, random->log_loss(), data.rows_of_class,
+                            options.learning.equal_prior ? ", which --equal-prior leaves out"
+                            : data.columns.size() > 1
+                                ? ", and too sure, as where several columns tell the same, or a value or bin has "
+                                  "few rows of a class (fewer --bins)"
+                                : "",
+                            result);
   for (const Outcome& outcome : results.outcomes)
     if (outcome.excluded > 0)
       result.say("{}: {:.3g} rows excluded every class and were judged by the prior", outcome.name,

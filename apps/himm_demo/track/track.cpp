@@ -192,7 +192,8 @@ class Reporter {
          "where {} {:.3g}: if they are rounded, {}",
          file_, rounding, told_by, told, remedy(rounding));
     const double scatter = outcome_.doubts.scatter().value_or(0.0);
-    warn(scatter > std::max(3.0 * told, 4.0 * rounding) && is_alone && !recording_.polar(),
+    warn(scatter > std::max(3.0 * told, 4.0 * rounding) && (by_rows || !recording_.tells_accuracy()) && is_alone &&
+             !recording_.polar(),
          "{}: positions scatter by {:.3g} m along an axis about their way, each otherwise, where {} {:.3g}: {}{}",
          file_, scatter, told_by, told, remedy(scatter),
          recording_.has_tracks() ? "" : "; if they are of several targets, tell these apart with --track-id COLUMN");

@@ -80,6 +80,7 @@ struct Doubts::Parts {
     std::array<double, 4> products = {};  // of each with itself and those before
   } second{};                             // differences of positions
   RunningMean variances{};                // that rows tell of positions, along an axis
+  std::size_t located = 0;                // rows that might
 };
 
 Doubts::Doubts() : parts_(std::make_shared<Parts>()) {}
@@ -100,6 +101,7 @@ void Doubts::see(const Row& row, const std::optional<Position>& position, const 
   for (int i = 0; i < 2; ++i)
     if (auto& some = parts_->numbers[static_cast<std::size_t>(i)]; some.size() < Parts::enough_numbers)
       if (const auto number = component_of(plot, i)) some.push_back(*number);
+  if (!is_radar) ++parts_->located;
   if (const double variance = plot.variance(0); !is_radar && variance > 0.0) parts_->variances.add(variance);
   const double height = axes == 3 ? component_of(plot, 2).value_or(nan) : nan;
   Vector<3> velocity = Vector<3>::Constant(nan);
@@ -185,7 +187,7 @@ std::optional<double> Doubts::scatter() const {
 }
 
 std::optional<double> Doubts::told_sigma() const {
-  if (parts_->variances.count() < 200) return {};
+  if (parts_->variances.count() < 200 || 10 * parts_->variances.count() < 9 * parts_->located) return {};
   return std::sqrt(parts_->variances.mean());
 }
 

@@ -25,7 +25,7 @@ class Doubts {
   /// most of how they bend; nothing where they bend by another law, or steps are uneven.
   std::optional<double> scatter() const;
 
-  /// The standard deviation along an axis that rows tell of positions, if hundreds do.
+  /// The standard deviation along an axis that rows tell of positions, if hundreds and nine in ten do.
   std::optional<double> told_sigma() const;
 
   /// How far positions and the ways by velocities that change are apart, in standard deviations that are expected.
