@@ -393,7 +393,8 @@ class Fitter {
   }
 
   /// To the least loss of the rows that count, by the surface, and the transition anew.
-  Fitted refine(const Fitted& about, const LossSurface& surface, bool learns) const {
+  /// The best that was found on the way goes to `better`.
+  Fitted refine(const Fitted& about, const LossSurface& surface, bool learns, Fitted* better = nullptr) const {
     Fitted best{about.settings, value(about.settings)};
     const auto numbers = told_numbers(about.settings);
     const auto shape = surface.shape(counts_);
@@ -405,7 +406,7 @@ class Fitter {
     const auto now = told_numbers(best.settings);
     auto all = free_numbers(best.settings, data_, options_);
     std::erase_if(all, &FreeNumber::relative);
-    std::vector<FreeNumber> rivals;
+    std::vector<Fitted> rivals;
     for (const FreeNumber& number : all)
       if (number.sensor && number.noise && !number.is_least()) add_rival(best, number, nothing, rivals);
     const std::set<std::string> tied = add_rivals_within_steps(best, rivals);
@@ -419,11 +420,13 @@ class Fitter {
           error = as_lost(best, now, shape.ridges[i], shape.error[i]);
       if (!(error < 1.0)) error = profiled(best, number, rivals);
     }
-    for (std::size_t i = 0; i < all.size(); ++i) {
-      const FitParameter& its = all[i].parameter;
-      for (const FreeNumber& rival : rivals)
-        if (rival.parameter.name == its.name)
-          errors[i] = std::max(errors[i], 0.5 * std::abs(its.scaled(rival.parameter.start) - its.scaled(its.start)));
+    if (better) *better = best;
+    for (const Fitted& rival : rivals) {
+      if (better && rival.settings.models == best.settings.models) keep_better(*better, rival);
+      for (const auto& [theirs, set, sensor, relative, noise, least] : free_numbers(rival.settings, data_, options_))
+        for (std::size_t i = 0; i < all.size(); ++i)
+          if (const FitParameter& its = all[i].parameter; its.name == theirs.name)
+            errors[i] = std::max(errors[i], 0.5 * std::abs(its.scaled(theirs.start) - its.scaled(its.start)));
     }
     for (std::size_t i = 0; i < all.size(); ++i)
       if (!(errors[i] < 1.0) && all[i].sensor && !all[i].is_least()) raise(best, all[i].parameter.name);
@@ -514,28 +517,26 @@ class Fitter {
   }
 
   /// The least loss so; where all rows lose less than two nats by it, those numbers are as likely, and rivals.
-  double add_rival(const Fitted& found, const FreeNumber& number, double factor,
-                   std::vector<FreeNumber>& rivals) const {
+  double add_rival(const Fitted& found, const FreeNumber& number, double factor, std::vector<Fitted>& rivals) const {
     const Fitted rival = held(found, number, factor);
-    if (is_as_likely(rival, found))
-      std::ranges::move(free_numbers(rival.settings, data_, options_), std::back_inserter(rivals));
+    if (is_as_likely(rival, found)) rivals.push_back(rival);
     return rival.fitted;
   }
 
   /// The same of models of continuous time in place of those of a fixed step, which are fitted. Returns the sensors'
   /// noises that may be nothing by them, or are another half of themselves away.
-  std::set<std::string> add_rivals_within_steps(const Fitted& found, std::vector<FreeNumber>& rivals) const {
+  std::set<std::string> add_rivals_within_steps(const Fitted& found, std::vector<Fitted>& rivals) const {
     constexpr double away = 1.5;
     std::set<std::string> tied;
     FilterSettings other = found.settings;
     if (!continue_motions(other, data_.step_s)) return tied;
     const Fitted rival = searched(from(other));
     if (!is_as_likely(rival, found)) return tied;
+    rivals.push_back(rival);
     const auto now = free_numbers(found.settings, data_, options_);  // of sensors, the same at the same places
     const auto then = free_numbers(rival.settings, data_, options_);
     for (std::size_t i = 0; i < now.size(); ++i) {
       if (!now[i].sensor) continue;
-      rivals.push_back(then[i]);
       const double times = now[i].parameter.start / then[i].parameter.start;
       if (now[i].noise && (std::max(times, 1.0 / times) > away || may_be_nothing(rival, then[i])))
         tied.insert(now[i].parameter.name);
@@ -545,7 +546,7 @@ class Fitter {
 
   /// The standard error of a number that a parabola does not tell, by what the rows lose at e times it and at an e-th;
   /// infinite where that is less than two nats on a side.
-  double profiled(const Fitted& found, const FreeNumber& number, std::vector<FreeNumber>& rivals) const {
+  double profiled(const Fitted& found, const FreeNumber& number, std::vector<Fitted>& rivals) const {
     if (options_.objective == Objective::rmse) return infinity;
     double lost = infinity;
     for (const double side : {1.0, -1.0})
@@ -958,15 +959,26 @@ TunedFilter tune(const FilterSettings& settings, const TuneData& data, const Tun
       tell(c, "without strays");
       fitted[c] = fitter_of_told.fit(fitted[c].settings, 0);
     }
-    tell(c, "errors and folds");
-    const LossSurface surface = fitter_of_told.surface(fitted[c]);
-    for (std::size_t fold = 0; fold < options.folds; ++fold) {
-      const auto counts = [&](std::size_t t, std::size_t k) { return folds[t][k] != fold; };
-      without[c].push_back(judged(
-          told, Fitter(told, options, progress, counts).refine(fitted[c], surface, true).settings, options.objective));
-      progress.advance();
+    constexpr std::size_t most_again = 2;
+    const double half_a_nat = 0.5 / static_cast<double>(told.measurements);
+    Fitted found;
+    for (std::size_t again = 0; again <= most_again; ++again) {
+      tell(c, "errors and folds");
+      const LossSurface surface = fitter_of_told.surface(fitted[c]);
+      without[c].clear();
+      for (std::size_t fold = 0; fold < options.folds; ++fold) {
+        const auto counts = [&](std::size_t t, std::size_t k) { return folds[t][k] != fold; };
+        without[c].push_back(judged(told,
+                                    Fitter(told, options, progress, counts).refine(fitted[c], surface, true).settings,
+                                    options.objective));
+        progress.advance();
+      }
+      Fitted better;
+      found = fitter_of_told.refine(fitted[c], surface, false, &better);
+      if (!(better.fitted < found.fitted - half_a_nat)) break;
+      fitted[c] = fitter_of_told.fit(better.settings, 0);
     }
-    fitted[c] = fitter_of_told.refine(fitted[c], surface, false);
+    fitted[c] = found;
     fitted[c].widened = finish(fitted[c].settings, settings.gate_probability, data, options);
   });
 
