@@ -26,6 +26,7 @@ struct Tally {
   std::size_t rejected = 0;
   std::size_t judged = 0;    ///< decided rows whose class is known
   std::size_t excluded = 0;  ///< rows that excluded every class
+  RunningMean surplus{};     ///< of the probability of an answer, over how often it is right
   RunningMean loss{};        ///< −log of the probability of a class that is known, of a classifier with probabilities
 
   std::optional<double> accuracy() const {
@@ -290,6 +291,7 @@ Classified classify_all(const ClassifyOptions& options, const LearnedModel& mode
       ++tally.decided[decision.pattern];
       if (truth) ++tally.judged;
       if (truth == decision.pattern) ++tally.recognised[*truth];
+      if (truth) tally.surplus.add(belief[decision.pattern] - (truth == decision.pattern ? 1.0 : 0.0));
     }
     if (show)
       show->decisions.push_back(fmt::format("{} ({} {:.3f}{})", rejected ? "rejected" : pattern.label(decision.pattern),
@@ -467,12 +469,11 @@ void run_classify(const ClassifyOptions& options) {
   say_unrecognised(labels_of(pattern), found.rows_of_class, recognised, result);
   say_beaten(labels_of(pattern), found.rows_of_class, recognised, result);
   for (const Tally& tally : found.tallies)
-    if (tally.loss.count() > 0)
-      say_worse_than_shares(
-          tally.name, tally.loss.mean(), found.rows_of_class,
-          ", as where several columns tell the same, the model's classes have other shares than these "
-          "rows, or it was learned from few rows",
-          result);
+    if (tally.loss.count() > 0 && tally.judged > 0)
+      say_miscalibrated(tally.name, tally.loss.mean(), tally.surplus, found.rows_of_class,
+                        ", as where several columns tell the same, the model's classes have other shares than these "
+                        "rows, or it was learned from few rows",
+                        result);
   say_otherwise(model, found, result);
   if (options.explain)
     for (const ShownRow& row : found.shown) {

@@ -122,16 +122,21 @@ void say_beaten(const std::vector<std::string>& classes, const std::vector<std::
                in_quotes(classes[static_cast<std::size_t>(most - rows.begin())]), list_of(worse));
 }
 
-void say_worse_than_shares(const std::string& contestant, double log_loss, const std::vector<std::size_t>& rows,
-                           std::string_view cause, Result& result) {
+void say_miscalibrated(const std::string& contestant, double log_loss, const RunningMean& surplus,
+                       const std::vector<std::size_t>& rows, std::string_view cause, Result& result) {
+  constexpr double much = 0.05;
   const double of_shares = sum_of(rows, [all = sum_of(rows)](std::size_t of_class) {
     const double share = static_cast<double>(of_class) / all;
     return share > 0.0 ? -share * std::log(share) : 0.0;
   });
-  result.say({{log_loss > of_shares,
-               fmt::format("{}: the shares of the classes alone have a log-loss of {:.3f}: its probabilities are worse "
-                           "than these{}",
-                           contestant, of_shares, cause)}});
+  const auto [by, half_width] = surplus.interval();
+  if (log_loss > of_shares)
+    result.say(
+        "{}: the shares of the classes alone have a log-loss of {:.3f}: its probabilities are worse than these{}",
+        contestant, of_shares, cause);
+  else if (by > std::max(much, 2.0 * half_width))
+    result.say("{}: its answers are right {:.0f} points more seldom than their probabilities say{}", contestant,
+               100.0 * by, cause);
 }
 
 Result result_of_contest(std::string title, const OutputOptions& output, const std::vector<Contestant>& contestants) {

@@ -28,6 +28,7 @@ struct Outcome {
   std::variant<Evaluation<Random>, Evaluation<Fuzzy>> evaluation;
   std::size_t excluded = 0;  ///< rows that excluded every class
   Reliability reliability{};
+  RunningMean surplus{};  ///< of the probability of an answer, over how often it is right
 
   const ConfusionMatrix& confusion() const {
     return of_kind(evaluation, [](const auto& e) -> const ConfusionMatrix& { return e.confusion(); });
@@ -62,7 +63,9 @@ std::vector<Outcome> classify_fold(const DataTable& data, const Folds& folds, st
   unsigned bits = 0;
   classify_rows(data, folds, taught_fold, 0, outcomes.size(), [&](const DataRow& row, std::size_t i, const Judged& by) {
     of_kind(by.belief, [&]<class Kind>(const Belief<Kind>& belief) {
-      if (std::get<Evaluation<Kind>>(outcomes[i].evaluation).add(row.label(), belief) > 0.0) bits |= 1U << i;
+      const double is_right = std::get<Evaluation<Kind>>(outcomes[i].evaluation).add(row.label(), belief);
+      if (is_right > 0.0) bits |= 1U << i;
+      outcomes[i].surplus.add(belief[decide(belief).pattern] - is_right);
       outcomes[i].reliability.add(row.label(), belief);
     });
     if (by.excluded) ++outcomes[i].excluded;
@@ -86,6 +89,7 @@ struct Results {
     for (std::size_t i = 0; i < outcomes.size(); ++i) {
       outcomes[i].excluded += fold[i].excluded;
       outcomes[i].reliability.add(fold[i].reliability);
+      outcomes[i].surplus.add(fold[i].surplus);
       of_kind(outcomes[i].evaluation, [&]<class Kind>(Evaluation<Kind>& evaluation) {
         evaluation.add(std::get<Evaluation<Kind>>(fold[i].evaluation));
       });
@@ -301,13 +305,12 @@ void say_scores(const DataTable& data, const Results& results, const EvaluateOpt
   say_beaten(data.classes, data.rows_of_class, recognised, result);
   for (const Outcome& outcome : results.outcomes)
     if (const auto* const random = std::get_if<Evaluation<Random>>(&outcome.evaluation))
-      say_worse_than_shares(outcome.name, random->log_loss(), data.rows_of_class,
-                            options.learning.equal_prior ? ", which --equal-prior leaves out"
-                            : data.columns.size() > 1
-                                ? ", and too sure, as where several columns tell the same, or a value or bin has "
-                                  "few rows of a class (fewer --bins)"
-                                : "",
-                            result);
+      say_miscalibrated(outcome.name, random->log_loss(), outcome.surplus, data.rows_of_class,
+                        options.learning.equal_prior ? ", as --equal-prior leaves the classes' shares out"
+                        : data.columns.size() > 1 ? ", as where several columns tell the same, or a value or bin has "
+                                                    "few rows of a class (fewer --bins)"
+                                                  : "",
+                        result);
   for (const Outcome& outcome : results.outcomes)
     if (outcome.excluded > 0)
       result.say("{}: {:.3g} rows excluded every class and were judged by the prior", outcome.name,
