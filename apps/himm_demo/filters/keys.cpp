@@ -98,7 +98,10 @@ void read(const Settings& settings, const std::string& key, const Range&, double
   value = settings.get(key, value);
 }
 
-std::string written(double value, double unit) { return toml_number(value / unit); }
+/// In another unit to 15 digits, which hide that it was converted.
+std::string written(double value, double unit) {
+  return toml_number(unit == 1.0 ? value : std::strtod(fmt::format("{:.15g}", value / unit).c_str(), nullptr));
+}
 std::string written(std::size_t value, double) { return std::to_string(value); }
 std::string written(std::optional<double> value, double) { return value ? toml_number(*value) : ""; }
 std::string written(const std::vector<double>& values, double) { return values.empty() ? "" : toml_list(values); }

@@ -196,6 +196,7 @@ class TrackRun {
   void count(const Row& row) {
     const int axes = axes_seen(row.plot, axes_);
     ++outcome_.rows;
+    outcome_.last_time = row.plot.time;
     if (row.measured()) ++outcome_.measurements;
     if (axes > 0 && axes < axes_) ++outcome_.partial;
     if (row.plot.sensor == AnyPlot::Sensor::bearing) ++outcome_.bearings;
@@ -238,9 +239,14 @@ class TrackRun {
     target.anchor.emplace(fixed_ ? *file_anchor_ : recording_.origin().value_or(here), axes_);
     const bool near = !far_away(target.anchor->to_local(here));
     for (const auto& filter : filters_) {
-      const bool stays = fixed_ || near || filter.start == StartRule::given;
+      const bool stays = fixed_ || near || filter.start == StartRule::given || has_home(filter);
       target.segments.push_back({{0, 0, stays ? *target.anchor : LocalFrame(here, axes_)}});
     }
+  }
+
+  /// Whether a model wanders about the origin, which then is to stay where it is.
+  static bool has_home(const FilterSettings& filter) {
+    return std::ranges::count(filter.motions, "ou_position", &MotionChoice::name) > 0;
   }
 
   /// So far from the origin of a frame its axes are no longer east and north.
@@ -348,7 +354,7 @@ class TrackRun {
             if (!filters_[f].smooth && !point.is_start) news.said.push_back(said(target, f, point));
             last = point;
           });
-          if (target.anchor && !fixed_ && filter.running()) move_frame(target, f, last);
+          if (target.anchor && !fixed_ && filter.running() && !has_home(filters_[f])) move_frame(target, f, last);
         }
       } catch (const std::exception& error) {
         refuse_failure(f, row, error);
@@ -580,8 +586,10 @@ class TrackRun {
                                   : fmt::format(", and {} that were skipped for their time", recording_.skipped())),
          .expected = "more than the three measurements that start a filter (two rows if the start is given)",
          .remedy = recording_.skipped() > outcome_.rows ? "sort the rows by time"
-                   : outcome_.partial > 0 ? "a track starts from whole positions; drop a column that is always empty"
-                                          : "give more rows, or start = \"given\" with start_time_s"});
+                   : outcome_.partial > 0
+                       ? "a track starts from whole positions; drop a column that is always empty, or give a "
+                         "start (himm_demo keys)"
+                       : "give more rows, or start = \"given\" with start_time_s"});
   }
 
   const TrackOptions& options_;

@@ -270,7 +270,8 @@ struct TrackTally {
 /// What all filters made of all targets of one recording.
 struct TrackOutcome {
   std::vector<FilterOutcome> filters;
-  SumsByPart raw;  ///< of the measurements, where the truth is known
+  SumsByPart raw;          ///< of the measurements, where the truth is known
+  double last_time = nan;  ///< of any row
   std::size_t rows = 0, measurements = 0;
   std::size_t partial = 0;  ///< of these with a position along some axes only
   std::size_t bearings = 0;
@@ -291,6 +292,10 @@ struct TrackOutcome {
   Outliers outliers;
   Refusals refusals;
 };
+
+/// What may be wrong with the recording, or with the settings for it, in sentences.
+std::vector<std::string> warnings_of(const TrackOptions& options, const RecordingReader& recording,
+                                     const std::vector<FilterSettings>& filters, const TrackOutcome& outcome);
 
 /// Where a run puts what it finds row by row; null where nobody wants it.
 struct TrackSinks {

@@ -196,13 +196,14 @@ void summarize(TuneData& data, const Columns& columns) {
     for (auto& [key, own] : its) data.sensors[name].stray_width[key] = 6.0 * quantile(own, 0.9);
   if (steps.empty()) return;
   data.step_s = quantile(steps, 0.5);
+  data.long_step_s = quantile(steps, 0.9);
   data.longest_step_s = *std::ranges::max_element(steps);
   if (data.longest_step_s > 200.0 * data.step_s)
     data.notes.push_back(
         fmt::format("a step of {:.4g} s is among those of {:.4g} s: if a target may do anything meanwhile, let filters "
                     "start anew by --set restart_after_s=…, and where it is another target, tell both apart",
                     data.longest_step_s, data.step_s));
-  data.uneven_steps = quantile(steps, 0.9) >= 2.0 * quantile(steps, 0.1);
+  data.uneven_steps = data.long_step_s >= 2.0 * quantile(steps, 0.1);
 }
 
 /// Of the true position, by the estimate's leading components; an axis that there is not counts for nothing.

@@ -65,8 +65,8 @@ constexpr double usual_rejections = 3.0;  // in a row, as a start wants
 
 constexpr double usual_sojourn_steps = 20.0;  // as .95 on the diagonal
 
-constexpr std::array factors = {0.03, 0.1, 0.3, 3.0, 10.0, 30.0};          // by which a number may be off at first
-constexpr std::array turns = {1.0, 2.0, 3.0, 5.0, 8.0, 12.0, 20.0, 30.0};  // that a rate may be at first, in °/s
+constexpr std::array factors = {0.03, 0.1, 0.3, 3.0, 10.0, 30.0};  // by which a number may be off at first
+constexpr std::array turns = {0.1, 0.3, 1.0, 2.0, 3.0, 5.0, 8.0, 12.0, 20.0, 30.0};  // at first, in ° a step
 constexpr std::size_t most_sweeps = 4;
 constexpr double nothing = 1e-3;  // as good as, times a noise
 
@@ -89,7 +89,8 @@ double rounded(double value) {
   return value == 0.0 ? value : std::strtod(fmt::format("{:.4g}", value).c_str(), nullptr);
 }
 
-void add_motions(const FilterSettings& settings, std::vector<FreeNumber>& numbers) {
+/// Turns are searched in degrees a step, so that no unit of time matters.
+void add_motions(const FilterSettings& settings, const TuneData& data, std::vector<FreeNumber>& numbers) {
   for (std::size_t j = 0; j < settings.motions.size(); ++j)
     for (const auto which :
          {MotionParameter::sigma_w, MotionParameter::tau, MotionParameter::turn_rate, MotionParameter::turn_drift}) {
@@ -99,7 +100,8 @@ void add_motions(const FilterSettings& settings, std::vector<FreeNumber>& number
       const auto& known = motion_parameters()[static_cast<std::size_t>(which)];
       numbers.push_back({.parameter = {.name = fmt::format("{} of {}", known.key, settings.models[j]),
                                        .start = motion[which],
-                                       .scale = linear ? Scale::linear : Scale::logarithmic},
+                                       .scale = linear ? Scale::linear : Scale::logarithmic,
+                                       .unit = 1.0 / data.long_step_s},
                          .set = [=](FilterSettings& changed, double value) { changed.motions[j][which] = value; },
                          .noise = which == MotionParameter::sigma_w || which == MotionParameter::turn_drift});
     }
@@ -185,7 +187,7 @@ bool has_transition(const FilterSettings& settings, const TuneOptions& options) 
 /// leaving any mode. By the RMSE, which a common factor of all noises leaves as it is, the sensors stay as they are.
 std::vector<FreeNumber> free_numbers(const FilterSettings& settings, const TuneData& data, const TuneOptions& options) {
   std::vector<FreeNumber> numbers;
-  if (options.fits("models")) add_motions(settings, numbers);
+  if (options.fits("models")) add_motions(settings, data, numbers);
   if (options.fits("sensors") && options.objective != Objective::rmse)
     for (const auto& [name, sensor] : data.sensors) add_sensor(settings, name, sensor, data.axes, numbers);
   if (has_transition(settings, options))
@@ -393,49 +395,30 @@ class Fitter {
   }
 
   /// To the least loss of the rows that count, by the surface, and the transition anew.
-  /// The best that was found on the way goes to `better`.
-  Fitted refine(const Fitted& about, const LossSurface& surface, bool learns, Fitted* better = nullptr) const {
-    Fitted best{about.settings, value(about.settings)};
-    const auto numbers = told_numbers(about.settings);
+  Fitted refit(const Fitted& about, const LossSurface& surface) const {
+    Fitted best = least(about, surface.shape(counts_));
+    learn(best);
+    return best;
+  }
+
+  /// To the least loss, by the surface; the numbers have their standard errors, and a sensor's noise without one is as
+  /// great as it may be. The best that was found on the way goes to `better`.
+  Fitted with_errors(const Fitted& about, const LossSurface& surface, Fitted& better) const {
     const auto shape = surface.shape(counts_);
-    take_if_better(best, moved(about.settings, numbers, shape.least));
-    if (learns) {
-      learn(best);
-      return best;
-    }
-    const auto now = told_numbers(best.settings);
-    auto all = free_numbers(best.settings, data_, options_);
-    std::erase_if(all, &FreeNumber::relative);
+    Fitted best = least(about, shape);
     std::vector<Fitted> rivals;
-    for (const FreeNumber& number : all)
-      if (number.sensor && number.noise && !number.is_least()) add_rival(best, number, nothing, rivals);
-    const std::set<std::string> tied = add_rivals_within_steps(best, rivals);
-    std::vector<double> errors;
-    for (const FreeNumber& number : all) {
-      double& error = errors.emplace_back(infinity);
-      if (number.is_least() || tied.contains(number.parameter.name) || (number.noise && may_be_nothing(best, number)))
-        continue;
-      for (std::size_t i = 0; i < numbers.size() && now.size() == numbers.size(); ++i)
-        if (numbers[i].parameter.name == number.parameter.name && shape.error[i] < 1.0)
-          error = as_lost(best, now, shape.ridges[i], shape.error[i]);
-      if (!(error < 1.0)) error = profiled(best, number, rivals);
-    }
-    if (better) *better = best;
-    for (const Fitted& rival : rivals) {
-      if (better && rival.settings.models == best.settings.models) keep_better(*better, rival);
-      for (const auto& [theirs, set, sensor, relative, noise, least] : free_numbers(rival.settings, data_, options_))
-        for (std::size_t i = 0; i < all.size(); ++i)
-          if (const FitParameter& its = all[i].parameter; its.name == theirs.name)
-            errors[i] = std::max(errors[i], 0.5 * std::abs(its.scaled(theirs.start) - its.scaled(its.start)));
-    }
-    for (std::size_t i = 0; i < all.size(); ++i)
-      if (!(errors[i] < 1.0) && all[i].sensor && !all[i].is_least()) raise(best, all[i].parameter.name);
-    for (std::size_t i = 0; const FreeNumber& number : free_numbers(best.settings, data_, options_)) {
-      if (number.relative) continue;
-      const auto& [name, start, scale, step, reach] = number.parameter;
-      const double error = errors[i++];
-      best.numbers.push_back({name, start, error < 1.0 ? (scale == Scale::linear ? 1.0 : start) * error : infinity,
-                              number.is_least(), number.sensor});
+    const auto errors = errors_of(best, told_numbers(about.settings), shape, rivals);
+    better = best;
+    for (const Fitted& rival : rivals)
+      if (rival.settings.models == best.settings.models) keep_better(better, rival);
+    for (const auto& [name, error] : errors)
+      if (const FreeNumber its = named(best.settings, name); !(error < 1.0) && its.sensor && !its.is_least())
+        raise(best, name);
+    for (const auto& [name, error] : errors) {
+      const FreeNumber its = named(best.settings, name);
+      const auto& [unused, start, scale, unit, step, reach] = its.parameter;
+      best.numbers.push_back({name, start, error < 1.0 ? (scale == Scale::linear ? unit : start) * error : infinity,
+                              its.is_least(), its.sensor});
     }
     return best;
   }
@@ -496,6 +479,42 @@ class Fitter {
     for (const double side : {2.0, -2.0})
       while (options_.objective != Objective::rmse && error < 1.0 && loss(side * error) < most) error *= wider;
     return error;
+  }
+
+  Fitted least(const Fitted& about, const LossSurface::Shape& shape) const {
+    Fitted best{about.settings, value(about.settings)};
+    take_if_better(best, moved(about.settings, told_numbers(about.settings), shape.least));
+    return best;
+  }
+
+  /// The standard errors of the numbers, each with its name, in their scales; by the surface's shape about `numbers`,
+  /// or by what the rows lose elsewhere. What is as likely joins the rivals.
+  std::vector<std::pair<std::string, double>> errors_of(const Fitted& best, const std::vector<FreeNumber>& numbers,
+                                                        const LossSurface::Shape& shape,
+                                                        std::vector<Fitted>& rivals) const {
+    const auto now = told_numbers(best.settings);
+    auto all = free_numbers(best.settings, data_, options_);
+    std::erase_if(all, &FreeNumber::relative);
+    for (const FreeNumber& number : all)
+      if (number.sensor && number.noise && !number.is_least()) add_rival(best, number, nothing, rivals);
+    const std::set<std::string> tied = add_rivals_within_steps(best, rivals);
+    std::vector<std::pair<std::string, double>> errors;
+    for (const FreeNumber& number : all) {
+      double& error = errors.emplace_back(number.parameter.name, infinity).second;
+      if (number.is_least() || tied.contains(number.parameter.name) || (number.noise && may_be_nothing(best, number)))
+        continue;
+      for (std::size_t i = 0; i < numbers.size() && now.size() == numbers.size(); ++i)
+        if (numbers[i].parameter.name == number.parameter.name && shape.error[i] < 1.0)
+          error = as_lost(best, now, shape.ridges[i], shape.error[i]);
+      if (!(error < 1.0)) error = profiled(best, number, rivals);
+    }
+    for (const Fitted& rival : rivals)
+      for (const FreeNumber& theirs : free_numbers(rival.settings, data_, options_))
+        for (std::size_t i = 0; i < all.size(); ++i)
+          if (const FitParameter& its = all[i].parameter; its.name == theirs.parameter.name)
+            errors[i].second =
+                std::max(errors[i].second, 0.5 * std::abs(its.scaled(theirs.parameter.start) - its.scaled(its.start)));
+    return errors;
   }
 
   /// The settings with a number times a factor, or of a linear one its logarithm more, the others searched anew.
@@ -573,9 +592,7 @@ class Fitter {
     constexpr double step = std::numbers::sqrt2;
     const double most = found.fitted + 0.5 / static_cast<double>(data_.measurements);
     for (std::size_t k = 0; k < most_steps; ++k) {
-      const auto numbers = free_numbers(found.settings, data_, options_);
-      const FreeNumber& noise =
-          *std::ranges::find(numbers, name, [](const FreeNumber& number) { return number.parameter.name; });
+      const FreeNumber noise = named(found.settings, name);
       Fitted raised = found;
       noise.set(raised.settings, step * noise.parameter.start);
       raised.fitted = value(raised.settings);
@@ -618,6 +635,11 @@ class Fitter {
     auto numbers = free_numbers(settings, data_, options_);
     std::erase_if(numbers, [&](const FreeNumber& number) { return number.parameter.name == held_; });
     return numbers;
+  }
+
+  FreeNumber named(const FilterSettings& settings, const std::string& name) const {
+    const auto numbers = free_numbers(settings, data_, options_);
+    return *std::ranges::find(numbers, name, [](const FreeNumber& number) { return number.parameter.name; });
   }
 
   /// The numbers that are not as small as they may be.
@@ -696,7 +718,7 @@ class Fitter {
         };
         if (number.parameter.scale == Scale::linear)
           for (const double turn : turns)
-            for (const double rate : {turn, -turn}) try_number(rate);
+            for (const double a_step : {turn, -turn}) try_number(number.parameter.value(a_step));
         else
           for (const double factor : factors) try_number(factor * number.parameter.start);
         if (!number.relative) number.parameter.start = taken;
@@ -968,13 +990,12 @@ TunedFilter tune(const FilterSettings& settings, const TuneData& data, const Tun
       without[c].clear();
       for (std::size_t fold = 0; fold < options.folds; ++fold) {
         const auto counts = [&](std::size_t t, std::size_t k) { return folds[t][k] != fold; };
-        without[c].push_back(judged(told,
-                                    Fitter(told, options, progress, counts).refine(fitted[c], surface, true).settings,
+        without[c].push_back(judged(told, Fitter(told, options, progress, counts).refit(fitted[c], surface).settings,
                                     options.objective));
         progress.advance();
       }
       Fitted better;
-      found = fitter_of_told.refine(fitted[c], surface, false, &better);
+      found = fitter_of_told.with_errors(fitted[c], surface, better);
       if (!(better.fitted < found.fitted - half_a_nat)) break;
       fitted[c] = fitter_of_told.fit(better.settings, 0);
     }

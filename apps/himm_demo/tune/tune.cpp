@@ -54,9 +54,9 @@ std::vector<std::string> advice_of(const Diagnosis& diagnosis) {
   const std::map<std::string_view, std::string_view> remedies = {
       {"models too stiff", "errors are greater than believed, and last: raise sigma_w, or add a model that manoeuvres"},
       {"optimistic sensor",
-       "errors are greater than believed, and do not last: raise its sigmas, by a factor of {:.2g} at most"},
+       "errors are greater than believed, and do not last: raise its sigmas, by a factor of {:.3g} at most"},
       {"models too loose", "errors are smaller than believed, and alternate: lower sigma_w"},
-      {"pessimistic sensor", "errors are smaller than believed: lower its sigmas, by a factor of {:.2g} at most"},
+      {"pessimistic sensor", "errors are smaller than believed: lower its sigmas, by a factor of {:.3g} at most"},
       {"gain too low", "errors last: raise sigma_w, or lower its sigmas"},
       {"gain too high", "errors alternate: lower sigma_w, or raise its sigmas"}};
   std::vector<std::string> sentences;
@@ -386,8 +386,10 @@ Diagnosis diagnose(const TuneData& data, const FilterSettings& settings, Objecti
          .what = fmt::format("filter '{}' makes no estimate that could be judged: its start may want positions, or "
                              "fewer rows at one time",
                              settings.name),
-         .remedy = "say where each station of bearings stands, as --set sensor.NAME.at=[E,N], or give them a "
-                   "start, --set start=given; see himm_demo keys"});
+         .remedy = fmt::format("{}, or give a start, --set start=given; see himm_demo keys",
+                               std::ranges::any_of(data.sensors, [](const auto& named) { return named.second.bearing; })
+                                   ? "say where each station of bearings stands, as --set sensor.NAME.at=[E,N]"
+                                   : "drop a column that is always empty, as a track starts from whole positions")});
   for (auto& mode : diagnosis.modes) mode.weight /= static_cast<double>(std::max<std::size_t>(rows, 1));
   for (auto& [name, tally] : sensors) diagnosis.sensors.push_back({name.empty() ? "all rows" : name, tally});
   if (judged > 0) {

@@ -89,6 +89,7 @@ struct TuneData {
   std::map<std::string, TuneSensor, std::less<>> sensors{};  ///< "" if the rows name none
   std::vector<std::string> notes{};                          ///< sentences on what does not count
   double step_s = 0.0;                                       ///< the median time between a track's measurements
+  double long_step_s = 1.0;                                  ///< that nine in ten do not exceed
   double longest_step_s = 0.0;
   bool uneven_steps = false;  ///< whether one in ten is twice as long as another one in ten, or more
 

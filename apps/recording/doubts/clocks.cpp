@@ -118,22 +118,24 @@ void Clocks::say_cut(Say& say, double moved) const {
 }
 
 /// Whether times are seconds from 1970 on, or since a start.
-void Clocks::say_unit(Say& say, bool alone, double speed) const {
-  const double step = this->step();
+void Clocks::say_unit(Say& say, std::size_t tracks, double moved, double duration) const {
+  const double step = this->step(), speed = moved / duration;
   // Of whole minutes none ends on 6000 to 9999.
   const bool are_minutes = hours_ > 2 && step < 2000.0;
   say(times_ >= 2 * few && clocks_ == times_ && (minutes_ > 2 || are_dates()) && (uneven_ > 0 || are_minutes),
       "no time ends on 60 to 99, as numbers of seconds would; if they are hours, minutes and seconds in a row, give "
       "--time-format {}",
       latest_ < 1e6 ? "%H%M%S" : "%Y%m%d%H%M%S");
-  if (alone) {
+  if (tracks == 1) {
     const std::string others = other_times();
     say(!others.empty(), "times are {}: write all in one unit", others);
   }
-  // As an hour: what is slow. Devices that tell milliseconds have even steps, and none tells them of this century.
+  // As an hour: what is slow, or stays where it is. Devices that tell milliseconds have even steps, and none tells them
+  // of this century.
   const bool in_minutes = std::fmod(step, 300.0) == 0.0 && std::fmod(step, 1000.0) != 0.0;
   const auto uneven = std::ranges::count_if(steps_, [&](double own) { return std::abs(own - step) > 0.3 * step; });
-  const bool is_slow = in_minutes || 5 * uneven > std::ssize(steps_) || (latest_ > 1e9 && latest_ < 1e10);
+  const bool stays = moved < 4.0 * static_cast<double>(tracks) * path_ / static_cast<double>(times_);
+  const bool is_slow = in_minutes || stays || 5 * uneven > std::ssize(steps_) || (latest_ > 1e9 && latest_ < 1e10);
   for (const TimeColumn& unit : time_columns)
     // From a tenth of a second to twenty seconds, and from 0.5 m/s to 500 m/s.
     say(unit.unit_s < 1.0 && !is_slow && !is_far_off() && step * unit.unit_s >= (unit.unit_s < 1e-8 ? 1e-3 : 0.1) &&
@@ -146,11 +148,11 @@ void Clocks::say_unit(Say& say, bool alone, double speed) const {
       speed, step);
 }
 
-void Clocks::say(Say& say, const RecordingReader& recording, bool alone, double moved, double duration) const {
+void Clocks::say(Say& say, const RecordingReader& recording, std::size_t tracks, double moved, double duration) const {
   const double step = this->step();
   say_reading(say, recording, step);
   const bool are_forward = !recording.times_are_numbers() && !recording.zoned() && steps_.size() >= few &&
-                           step <= 60.0 && puts_clocks_forward(step, alone);
+                           step <= 60.0 && puts_clocks_forward(step, tracks == 1);
   say(!are_forward && slips_.size() == 1 && !slips_.contains(-1),
       "time goes on by {:.6g} s on line {}, where steps are of {:.6g} s, and the target only as far as in one of "
       "these{}: see whether a clock was set, days were read as months, or the zone is another one from there on",
@@ -165,7 +167,7 @@ void Clocks::say(Say& say, const RecordingReader& recording, bool alone, double 
       "times from 1970 on would be of the year {:.0f}: see whether they are in a smaller unit than that of their "
       "header, and name it time_ms, time_us or time_ns",
       1970.0 + latest_ / 31556952.0);
-  if (recording.times_are_seconds()) say_unit(say, alone, moved / duration);
+  if (recording.times_are_seconds()) say_unit(say, tracks, moved, duration);
 }
 
 }  // namespace sigmax::apps::doubts

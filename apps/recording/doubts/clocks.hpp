@@ -19,15 +19,15 @@ class Clocks {
   /// The usual step of a track in s; NaN if there is none.
   double step() const { return steps_.empty() ? nan : median(steps_); }
 
-  /// Of a lone track or several, which came so far in so many seconds.
-  void say(Say& say, const RecordingReader& recording, bool alone, double moved, double duration) const;
+  /// Of so many tracks, which came so far in so many seconds.
+  void say(Say& say, const RecordingReader& recording, std::size_t tracks, double moved, double duration) const;
 
  private:
   std::string other_times() const;
   bool puts_clocks_forward(double step, bool alone) const;
   void say_reading(Say& say, const RecordingReader& recording, double step) const;
   void say_cut(Say& say, double moved) const;
-  void say_unit(Say& say, bool alone, double speed) const;
+  void say_unit(Say& say, std::size_t tracks, double moved, double duration) const;
   bool are_dates() const { return latest_ >= 1.9e13 && latest_ < 2.1e13; }  // in digits
   bool is_far_off() const { return !are_dates() && latest_ > 1e11; }
 

@@ -266,7 +266,7 @@ std::vector<std::string> Doubts::sentences(const RecordingReader& recording) con
   }
   parts_->repeats.say_interpolated(say, sensors, rounding(recording));
   parts_->repeats.say(say, recording, parts_->tracks.size(), moved);
-  parts_->clocks.say(say, recording, parts_->tracks.size() == 1, moved, duration);
+  parts_->clocks.say(say, recording, parts_->tracks.size(), moved, duration);
   return std::move(say.sentences);
 }
 

@@ -22,16 +22,17 @@ struct FitParameter {
   std::string name;
   double start = 1.0;
   Scale scale = Scale::logarithmic;
+  double unit = 1.0;   ///< of a linear one, scaled
   double step = 0.5;   ///< what a search tries first, and further starts are away, scaled
   double reach = 9.0;  ///< how far from the start the search goes, scaled
 
   double scaled(double value) const {
     if (scale == Scale::logistic) return std::log(value) - std::log1p(-value);
-    return scale == Scale::logarithmic ? std::log(value) : value;
+    return scale == Scale::logarithmic ? std::log(value) : value / unit;
   }
   double value(double scaled) const {
     if (scale == Scale::logistic) return 1.0 / (1.0 + std::exp(-scaled));
-    return scale == Scale::logarithmic ? std::exp(scaled) : scaled;
+    return scale == Scale::logarithmic ? std::exp(scaled) : scaled * unit;
   }
 };
 
