@@ -23,10 +23,10 @@ struct Tally {
   std::string name;
   std::vector<std::size_t> decided;  ///< by class
   std::vector<double> recognised;    ///< of the decided rows of a class
+  Surplus surplus;
   std::size_t rejected = 0;
   std::size_t judged = 0;    ///< decided rows whose class is known
   std::size_t excluded = 0;  ///< rows that excluded every class
-  RunningMean surplus{};     ///< of the probability of an answer, over how often it is right
   RunningMean loss{};        ///< −log of the probability of a class that is known, of a classifier with probabilities
 
   std::optional<double> accuracy() const {
@@ -291,7 +291,8 @@ Classified classify_all(const ClassifyOptions& options, const LearnedModel& mode
       ++tally.decided[decision.pattern];
       if (truth) ++tally.judged;
       if (truth == decision.pattern) ++tally.recognised[*truth];
-      if (truth) tally.surplus.add(belief[decision.pattern] - (truth == decision.pattern ? 1.0 : 0.0));
+      if (truth)
+        tally.surplus[decision.pattern].add(belief[decision.pattern] - (truth == decision.pattern ? 1.0 : 0.0));
     }
     if (show)
       show->decisions.push_back(fmt::format("{} ({} {:.3f}{})", rejected ? "rejected" : pattern.label(decision.pattern),
@@ -307,7 +308,8 @@ Classified classify_all(const ClassifyOptions& options, const LearnedModel& mode
   Classified result;
   result.rows_of_class.assign(pattern.size(), 0);
   for (const Contestant& one : all)
-    result.tallies.push_back({one.name, result.rows_of_class, std::vector<double>(pattern.size(), 0.0)});
+    result.tallies.push_back(
+        {one.name, result.rows_of_class, std::vector<double>(pattern.size(), 0.0), Surplus(pattern.size())});
   Progress progress("classifying", reader.bytes_total().value_or(0), options.output.quiet || !reader.bytes_total());
   for (CsvRow row; reader.next(row); ++result.rows) {
     const Readings report = rows.readings(row);
@@ -470,7 +472,7 @@ void run_classify(const ClassifyOptions& options) {
   say_beaten(labels_of(pattern), found.rows_of_class, recognised, result);
   for (const Tally& tally : found.tallies)
     if (tally.loss.count() > 0 && tally.judged > 0)
-      say_miscalibrated(tally.name, tally.loss.mean(), tally.surplus, found.rows_of_class,
+      say_miscalibrated(tally.name, tally.loss.mean(), tally.surplus, labels_of(pattern), found.rows_of_class,
                         ", as where several columns tell the same, the model's classes have other shares than these "
                         "rows, or it was learned from few rows",
                         result);

@@ -122,21 +122,33 @@ void say_beaten(const std::vector<std::string>& classes, const std::vector<std::
                in_quotes(classes[static_cast<std::size_t>(most - rows.begin())]), list_of(worse));
 }
 
-void say_miscalibrated(const std::string& contestant, double log_loss, const RunningMean& surplus,
-                       const std::vector<std::size_t>& rows, std::string_view cause, Result& result) {
-  constexpr double much = 0.05;
+void say_miscalibrated(const std::string& contestant, double log_loss, const Surplus& surplus,
+                       const std::vector<std::string>& classes, const std::vector<std::size_t>& rows,
+                       std::string_view cause, Result& result, std::size_t repetitions) {
+  constexpr double much = 0.05, much_of_a_class = 0.1;
+  RunningMean of_all;
+  for (const RunningMean& of_class : surplus) of_all.add(of_class);
+  const double sure = 2.0 * std::sqrt(static_cast<double>(repetitions));
+  const auto excess = [&](const RunningMean& of, double least) {
+    if (of.count() < 2) return 0.0;
+    const auto [by, half_width] = of.interval();
+    return by > std::max(least, sure * half_width) ? by : 0.0;
+  };
+  const auto own = each(surplus, [&](const RunningMean& of_class) { return excess(of_class, much_of_a_class); });
+  const auto worst = std::ranges::max_element(own);
+  const double by = excess(of_all, much);
   const double of_shares = sum_of(rows, [all = sum_of(rows)](std::size_t of_class) {
     const double share = static_cast<double>(of_class) / all;
     return share > 0.0 ? -share * std::log(share) : 0.0;
   });
-  const auto [by, half_width] = surplus.interval();
   if (log_loss > of_shares)
     result.say(
         "{}: the shares of the classes alone have a log-loss of {:.3f}: its probabilities are worse than these{}",
         contestant, of_shares, cause);
-  else if (by > std::max(much, 2.0 * half_width))
-    result.say("{}: its answers are right {:.0f} points more seldom than their probabilities say{}", contestant,
-               100.0 * by, cause);
+  else if (by > 0.0 || *worst > 0.0)
+    result.say("{}: its answers{} are right {:.0f} points more seldom than their probabilities say{}", contestant,
+               by > 0.0 ? "" : " " + in_quotes(classes[static_cast<std::size_t>(worst - own.begin())]),
+               100.0 * (by > 0.0 ? by : *worst), cause);
 }
 
 Result result_of_contest(std::string title, const OutputOptions& output, const std::vector<Contestant>& contestants) {

@@ -28,7 +28,7 @@ struct Outcome {
   std::variant<Evaluation<Random>, Evaluation<Fuzzy>> evaluation;
   std::size_t excluded = 0;  ///< rows that excluded every class
   Reliability reliability{};
-  RunningMean surplus{};  ///< of the probability of an answer, over how often it is right
+  Surplus surplus{};
 
   const ConfusionMatrix& confusion() const {
     return of_kind(evaluation, [](const auto& e) -> const ConfusionMatrix& { return e.confusion(); });
@@ -59,13 +59,15 @@ std::vector<Outcome> classify_fold(const DataTable& data, const Folds& folds, st
   for (const Contestant& contestant : taught_fold.contestants)
     of_kind(contestant.classifier, [&](const auto& by) {
       outcomes.push_back({contestant.name, Evaluation{by.prior().variable()}});
+      outcomes.back().surplus.resize(by.prior().size());
     });
   unsigned bits = 0;
   classify_rows(data, folds, taught_fold, 0, outcomes.size(), [&](const DataRow& row, std::size_t i, const Judged& by) {
     of_kind(by.belief, [&]<class Kind>(const Belief<Kind>& belief) {
       const double is_right = std::get<Evaluation<Kind>>(outcomes[i].evaluation).add(row.label(), belief);
       if (is_right > 0.0) bits |= 1U << i;
-      outcomes[i].surplus.add(belief[decide(belief).pattern] - is_right);
+      const std::size_t answer = decide(belief).pattern;
+      outcomes[i].surplus[answer].add(belief[answer] - is_right);
       outcomes[i].reliability.add(row.label(), belief);
     });
     if (by.excluded) ++outcomes[i].excluded;
@@ -89,7 +91,7 @@ struct Results {
     for (std::size_t i = 0; i < outcomes.size(); ++i) {
       outcomes[i].excluded += fold[i].excluded;
       outcomes[i].reliability.add(fold[i].reliability);
-      outcomes[i].surplus.add(fold[i].surplus);
+      for (std::size_t c = 0; c < outcomes[i].surplus.size(); ++c) outcomes[i].surplus[c].add(fold[i].surplus[c]);
       of_kind(outcomes[i].evaluation, [&]<class Kind>(Evaluation<Kind>& evaluation) {
         evaluation.add(std::get<Evaluation<Kind>>(fold[i].evaluation));
       });
@@ -305,12 +307,12 @@ void say_scores(const DataTable& data, const Results& results, const EvaluateOpt
   say_beaten(data.classes, data.rows_of_class, recognised, result);
   for (const Outcome& outcome : results.outcomes)
     if (const auto* const random = std::get_if<Evaluation<Random>>(&outcome.evaluation))
-      say_miscalibrated(outcome.name, random->log_loss(), outcome.surplus, data.rows_of_class,
+      say_miscalibrated(outcome.name, random->log_loss(), outcome.surplus, data.classes, data.rows_of_class,
                         options.learning.equal_prior ? ", as --equal-prior leaves the classes' shares out"
                         : data.columns.size() > 1 ? ", as where several columns tell the same, or a value or bin has "
                                                     "few rows of a class (fewer --bins)"
                                                   : "",
-                        result);
+                        result, options.foldings);
   for (const Outcome& outcome : results.outcomes)
     if (outcome.excluded > 0)
       result.say("{}: {:.3g} rows excluded every class and were judged by the prior", outcome.name,

@@ -6,6 +6,9 @@
 #include <cmath>
 #include <cwchar>
 #include <map>
+#include <memory>
+
+#include <utf8proc.h>
 
 namespace sigmax::apps {
 
@@ -117,12 +120,21 @@ std::string lower_case(std::string_view text) {
   return result;
 }
 
+/// Letters of any script in one case and Unicode form (NFKC), without what is not seen; of what is no UTF-8, lower
+/// case.
+static std::string folded_case(std::string_view text) {
+  constexpr auto form = static_cast<utf8proc_option_t>(UTF8PROC_STABLE | UTF8PROC_COMPOSE | UTF8PROC_COMPAT |
+                                                       UTF8PROC_CASEFOLD | UTF8PROC_IGNORE);
+  utf8proc_uint8_t* found = nullptr;
+  const utf8proc_ssize_t size = utf8proc_map(reinterpret_cast<const utf8proc_uint8_t*>(text.data()),
+                                             static_cast<utf8proc_ssize_t>(text.size()), &found, form);
+  const std::unique_ptr<utf8proc_uint8_t, decltype(&std::free)> owner(found, &std::free);
+  return size < 0 ? lower_case(text) : std::string(found, found + size);
+}
+
 std::string alike(const std::vector<std::string_view>& words) {
   const auto folded = [](std::string_view word) {
-    constexpr std::string_view no_break = "\u00a0";
-    std::string text = lower_case(word);
-    for (std::size_t at = 0; (at = text.find(no_break, at)) != text.npos;) text.replace(at, no_break.size(), " ");
-    auto parts = words_of(text);
+    auto parts = words_of(folded_case(word));
     std::erase(parts, "");
     const auto key = fmt::format("{}", fmt::join(parts, " "));
     constexpr std::size_t digits_of_a_double = 15;

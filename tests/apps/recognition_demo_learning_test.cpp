@@ -463,12 +463,13 @@ TEST_F(RecognitionDemoLearning, WhatIsAskedFarFromWhatWasLearnedIsPointedOutForF
 }
 
 TEST_F(RecognitionDemoLearning, ProbabilitiesThatAreWorseThanTheSharesAreNamed) {
-  const auto said = [&](int copies) {
+  const auto said = [&](int copies, int size = 200, int one_in = 2, int wrong_in = 10, int wrong = 3) {
     std::string rows = "kind";
     for (int i = 0; i < copies; ++i) rows += fmt::format(",x{}", i);
-    for (int k = 0; k < 200; ++k) {
-      rows += k % 2 ? "\na" : "\nb";
-      for (int i = 0; i < copies; ++i) rows += k % 10 < 7 ? (k % 2 ? ",u" : ",v") : (k % 2 ? ",v" : ",u");
+    for (int k = 0; k < size; ++k) {
+      const bool is_a = k % one_in == 1, is_right = (k + k / one_in) % wrong_in < wrong_in - wrong;
+      rows += is_a ? "\na" : "\nb";
+      for (int i = 0; i < copies; ++i) rows += is_a == is_right ? ",u" : ",v";
     }
     const std::string file = directory.write("rows.csv", rows + "\n");
     recognition_demo_succeeds({"train", file, "--label", "kind", "--model", model});
@@ -480,6 +481,7 @@ TEST_F(RecognitionDemoLearning, ProbabilitiesThatAreWorseThanTheSharesAreNamed) 
   EXPECT_TRUE(says(said(20), {worse, "or bin has few rows of a", "or it was learned from few rows"}));
   const std::string seldom = "sigma: its answers are right 14 points more seldom than their probabilities say";
   EXPECT_TRUE(says(said(2), {seldom, "or bin has few rows of a", "or it was learned from few rows"}));
+  EXPECT_TRUE(says(said(2, 4000, 30, 20, 1), {"sigma: its answers 'a' are right 53 points more seldom"}));
   for (const auto* const words : {"worse than these", "more seldom"}) EXPECT_EQ(said(1).find(words), std::string::npos);
 }
 

@@ -437,10 +437,11 @@ class TrackRun {
     const AnyPlot plot = believed(filter, row.sensor, row.plot, axes_);
     if (!row.predicted) {
       lean(outcome_.filters[said.filter].leans[row.sensor], plot, point.normalized_innovation);
-      if (!point.normalized_innovation.empty() && axes_seen(plot, axes_) == axes_ && is_moving(plot, axes_)) {
+      if (!point.normalized_innovation.empty() && axes_seen(row.plot, axes_) == axes_) {
         std::vector<double>& before = target.innovations[{said.filter, row.sensor}];
         const std::span own = std::span(point.normalized_innovation).first(static_cast<std::size_t>(axes_));
-        outcome_.filters[said.filter].with_velocity.add(own, before);
+        FilterOutcome& its = outcome_.filters[said.filter];
+        (is_moving(row.plot, axes_) ? its.with_velocity : its.without_velocity).add(own, before);
         before.assign(own.begin(), own.end());
       }
       if (point.nis) {

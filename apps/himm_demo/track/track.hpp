@@ -217,6 +217,7 @@ class Lean {
 struct FilterOutcome {
   SumsByPart sums;
   InnovationTally with_velocity{};                     ///< of positions, in rows with a velocity
+  InnovationTally without_velocity{};                  ///< and in others
   std::map<std::string, std::array<Lean, 8>> leans{};  ///< of each sensor's quantities, and along and across the way
   std::size_t rejected = 0;                            ///< by the gate
   std::size_t restarts = 0;                            ///< after a gap

@@ -184,6 +184,13 @@ class Warnings {
          "sensor's sigmas say, their errors last, as those of a GNSS do, or they are in another unit than was taken; "
          "headers may name one, as range_nmi, range_km, altitude_ft",
          file_, nis, usual);
+    const double alike = best.without_velocity.count() < 50 ? 0.0 : best.without_velocity.autocorrelation();
+    warn(!low && greatest < 0.5 && alike > 0.3 && outcome_.refusals.many == 0,
+         "{}: the mean NIS is {:.2g}, where {:.3g} is expected, and neighbouring innovations are alike (correlation "
+         "{:.2f}): errors last, as those of a device that averages, whose positions are late, too; or raise sigma_w, "
+         "and "
+         "lower the sensor's sigmas",
+         file_, nis, usual, alike);
     const auto lasting = [](const FilterOutcome& one) {
       return one.with_velocity.count() < 50 ? 0.0 : one.with_velocity.autocorrelation();
     };
@@ -225,7 +232,7 @@ class Warnings {
       }
       warn(by > 0.0,
            "{}: what {} tells is to one side of what every filter expects, by {:.2g} standard deviations on the "
-           "average, so that the estimates are farther off than they say: {}",
+           "average, so that the estimates may be farther off than they say: {}",
            file_, sensor.empty() ? "a row" : fmt::format("sensor '{}'", sensor), by,
            outcome_.sensors.size() > 1 ? "see whether the sensors' places, north, clocks and scales agree"
            : outcome_.filters.front().with_velocity.count() > 0

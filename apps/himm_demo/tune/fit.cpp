@@ -354,6 +354,8 @@ class Fitter {
       keep_better(best, searched(std::move(other)));
     };
     also_from(true, "");
+    FilterSettings lasting = settings;
+    if (remembers_steps(lasting)) keep_better(best, searched(from(lasting)));
     // Which of several motions is quiet, a search does not find out.
     for (const FreeNumber& number : free_numbers(settings, data_, options_))
       if (number.noise && !number.sensor) also_from(false, number.parameter.name);
@@ -440,6 +442,21 @@ class Fitter {
       if (!(before - best.fitted > least_improvement) && !parted) break;
     }
     return best;
+  }
+
+  /// A tau below a step, or of more than a thousand, as one in s is of rows that are days or milliseconds apart, makes
+  /// no difference to a search: ten steps instead, in that unit of time. Whether there is any.
+  bool remembers_steps(FilterSettings& settings) const {
+    bool any = false;
+    for (MotionChoice& motion : settings.motions) {
+      double& tau = motion[MotionParameter::tau];
+      const double steps = tau / data_.long_step_s;
+      if (!motion.known().has_parameter(MotionParameter::tau) || (steps >= 1.0 && steps <= 1000.0)) continue;
+      const double unit = 10.0 * data_.long_step_s / std::exchange(tau, 10.0 * data_.long_step_s);
+      motion[MotionParameter::sigma_w] *= std::pow(unit, 1 - motion.known().derivatives);
+      any = true;
+    }
+    return any && options_.fits("models");
   }
 
   double share_of_strays(const FilterSettings& settings) const {
@@ -905,6 +922,11 @@ std::vector<ModelSet> model_sets(const FilterSettings& settings, const TuneOptio
   for (const auto& name : names) {
     sets.push_back({name, with_models(settings, name)});
     FilterSettings& own = sets.back().settings;
+    for (MotionChoice& motion : own.motions) {  // beyond half a circle a step another turn is as good
+      double& turn = motion[MotionParameter::turn_rate];
+      if (options.fits("models") && std::abs(turn) * data.step_s > 180.0)
+        turn = std::remainder(turn, 360.0 / data.step_s);
+    }
     if (own.gate_probability == 1.0) {
       own.gate_probability = usual_gate;
       own.restart_after_rejections = usual_rejections;

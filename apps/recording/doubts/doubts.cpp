@@ -213,7 +213,7 @@ void Doubts::Parts::say_reading(Say& say, const RecordingReader& recording) cons
                                                             {"sensors", alike({sensors.begin(), sensors.end()})}};
   for (const auto& [what, two] : twins)
     say(!two.empty(),
-        "{} {} differ in case, blanks or the writing of a number only, and count as two; write them alike, if they are "
+        "{} {} differ in case, blanks, Unicode forms or the writing of a number only, and count as two; write them alike, if they are "
         "the same",
         what, two);
   const auto swallowed = recording.csv().swallowed();

@@ -55,18 +55,19 @@ void Rates::see(Sensor& sensor, const Trail& trail, Spoke& now) {
       if (!since.held && !std::isnan(told[rate]))
         late_[k].add(now.rate[rate] - since.rate[rate], (grew[rate] - told[rate]) * T);
     }
+    since = Since(now);
+    if (std::isnan(told[x] + told[y])) continue;
     add(exchanged, told[y], grew[x]);
     add(exchanged, told[x], grew[y]);
     add(to_the_left, -told[y], grew[x]);
     add(to_the_left, told[x], grew[y]);
-    if (k == 1 && !std::isnan(told[x] + told[y])) {
+    if (k == 1) {
       off_.sum += Vector<3>(told[x] - grew[x], told[y] - grew[y], 0.0);
       ++off_.squares.count;
       off_.speeds += std::pow(told.head<2>().matrix().norm() - grew.head<2>().matrix().norm(), 2);
       off_.squares.grew += (told - grew).head<2>().square().sum();
       off_.squares.told += told.head<2>().square().sum();
     }
-    since = Since(now);
   }
 }
 
