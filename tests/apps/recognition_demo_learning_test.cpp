@@ -308,7 +308,7 @@ TEST_F(RecognitionDemoLearning, WordsThatDifferInCaseAndFarNumbersArePointedOut)
     text += fmt::format("{},{},{}\n", 15 + k % 10 + k % 2, k % 3 ? "True" : "TRUE", k % 2 ? "a" : "b");
   const auto data = directory.write("rooms.csv", text);
   const auto learned = recognition_demo_succeeds({"train", data, "--label", "kind", "--model", model});
-  EXPECT_TRUE(says(learned.output, {"column 'flag': 'TRUE' and 'True' differ in case, blanks or"}));
+  EXPECT_TRUE(says(learned.output, {"column 'flag': 'TRUE' and 'True' differ in case, blanks, Unicode"}));
   EXPECT_EQ(classify("warmth,flag\n0,True\n40,True\n").find("far"), std::string::npos);
   const std::string said = classify("warmth,flag\n20,True\n68,True\n70,True\n");  // degrees Fahrenheit
   EXPECT_TRUE(says(said, {"2 numbers are far from those that the model was learned from", "'68'"}));

@@ -185,11 +185,10 @@ class Warnings {
          "headers may name one, as range_nmi, range_km, altitude_ft",
          file_, nis, usual);
     const double alike = best.without_velocity.count() < 50 ? 0.0 : best.without_velocity.autocorrelation();
-    warn(!low && greatest < 0.5 && alike > 0.3 && outcome_.refusals.many == 0,
+    warn(!low && greatest < 0.5 && alike > 0.5 && outcome_.refusals.many == 0,
          "{}: the mean NIS is {:.2g}, where {:.3g} is expected, and neighbouring innovations are alike (correlation "
-         "{:.2f}): errors last, as those of a device that averages, whose positions are late, too; or raise sigma_w, "
-         "and "
-         "lower the sensor's sigmas",
+         "{:.2f}): errors last, as those of a GNSS or of a device that averages, whose positions are late, too; or "
+         "raise sigma_w, and lower the sensor's sigmas",
          file_, nis, usual, alike);
     const auto lasting = [](const FilterOutcome& one) {
       return one.with_velocity.count() < 50 ? 0.0 : one.with_velocity.autocorrelation();
