@@ -1,6 +1,6 @@
 #include "himm_demo/track/track.hpp"
 
-#include <Eigen/Core>
+#include <Eigen/LU>
 
 #include "support/progress.hpp"
 #include "support/random.hpp"
@@ -9,10 +9,13 @@
 namespace sigmax::apps {
 namespace {
 
-/// The frame in which a filter follows a target from a start on.
+/// The frame in which a filter follows a target from a row on, and how what is told in the one before, of the same
+/// start, is told in it: turned, and shifted.
 struct Segment {
   std::size_t first_tag, starts;
   LocalFrame frame;
+  Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
+  Eigen::Vector3d shift = Eigen::Vector3d::Zero();
 };
 
 /// One target of a recording, followed by every filter: here, or in another rank.
@@ -29,15 +32,33 @@ struct Target {
 
   const Row& row(std::size_t tag) const { return rows[tag + rows.size() - tally.rows]; }
 
-  /// The frame of a row's estimate.
-  const LocalFrame& frame(std::size_t filter, std::size_t tag) const {
+  /// That of a row's estimate.
+  std::vector<Segment>::const_iterator segment(std::size_t filter, std::size_t tag) const {
     const auto& all = segments[filter];
-    return std::prev(std::ranges::upper_bound(all.begin() + 1, all.end(), tag, {}, &Segment::first_tag))->frame;
+    return std::prev(std::ranges::upper_bound(all.begin() + 1, all.end(), tag, {}, &Segment::first_tag));
   }
 };
 
 Eigen::Matrix3d matrix(const std::array<Position, 3>& rows) {
   return Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(rows[0].data());
+}
+
+/// Turns the mean and the covariance of each derivative of a point.
+void turn_point(const Eigen::Matrix3d& turn, TargetPoint& point, Eigen::Index axes) {
+  const auto n = static_cast<Eigen::Index>(point.mean.size());
+  Eigen::Map<Eigen::VectorXd> means(point.mean.data(), n);
+  Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>> covariances(
+      point.covariance.data(), n, n);
+  for (Eigen::Index at = 0; at + axes <= n; at += axes) {
+    Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+    Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+    mean.head(axes) = means.segment(at, axes);
+    covariance.topLeftCorner(axes, axes) = covariances.block(at, at, axes, axes);
+    mean = turn * mean;
+    covariance = turn * covariance * turn.transpose();
+    means.segment(at, axes) = mean.head(axes);
+    covariances.block(at, at, axes, axes) = covariance.topLeftCorner(axes, axes);
+  }
 }
 
 template <class Add>
@@ -348,13 +369,15 @@ class TrackRun {
       AnyTarget& filter = target.filters[f];
       try {
         if (!again || filter.running() || (crosses_ && filters_[f].start != StartRule::given)) {
+          const bool moves = target.anchor && !fixed_ && !has_home(filters_[f]);
+          if (moves && row.predicted && filter.running()) move_frame(target, f, filter.output(), true);
           const AnyPlot plot = plot_for(target, f, row);
           TargetPoint last;
           filter.follow({&plot, 1}, [&](const TargetPoint& point) {
             if (!filters_[f].smooth && !point.is_start) news.said.push_back(said(target, f, point));
             last = point;
           });
-          if (target.anchor && !fixed_ && filter.running() && !has_home(filters_[f])) move_frame(target, f, last);
+          if (moves && !row.predicted && filter.running()) move_frame(target, f, last);
         }
       } catch (const std::exception& error) {
         refuse_failure(f, row, error);
@@ -388,8 +411,8 @@ class TrackRun {
     return believed(filters_[f], row.sensor, plot, axes_);
   }
 
-  /// Moves the frame of a filter along with a target that has gone far.
-  void move_frame(Target& target, std::size_t f, const TargetPoint& last) {
+  /// Moves the frame of a filter along with a target that has gone far, or before it does.
+  void move_frame(Target& target, std::size_t f, const TargetPoint& last, bool always = false) {
     AnyTarget& filter = target.filters[f];
     auto& segments = target.segments[f];
     if (segments.back().starts == 0) segments.back().starts = filter.starts();
@@ -399,8 +422,8 @@ class TrackRun {
     }
     Position position{};
     std::copy_n(last.mean.begin(), axes_, position.begin());
-    if (!far_away(position)) return;
-    LocalFrame& frame = segments.back().frame;
+    if (!far_away(position) && !always) return;
+    const LocalFrame frame = segments.back().frame;
     const Eigen::Matrix3d turn = matrix(frame.local_axes(position));
     const Eigen::Vector3d shift = -turn * Eigen::Map<const Eigen::Vector3d>(position.data());
     std::vector<double> A, b;
@@ -408,12 +431,29 @@ class TrackRun {
       for (Eigen::Index j = 0; j < axes_; ++j) A.push_back(turn(i, j));
       b.push_back(shift(i));
     }
-    if (filter.transform(A, b)) frame = LocalFrame(frame.to_geodetic(position), axes_);
+    if (!filter.transform(A, b)) return;
+    const std::size_t next = target.tally.rows - (always ? 1 : 0), starts = segments.back().starts;
+    segments.push_back({next, starts, LocalFrame(frame.to_geodetic(position), axes_), turn, shift});
+    if (!filters_[f].smooth) segments.erase(segments.begin());
   }
 
   static Said said(const Target& target, std::size_t f, const TargetPoint& point) {
     Said said{f, point, std::nullopt};
-    if (target.anchor) said.frame = target.frame(f, point.tag).origin();
+    if (target.anchor) said.frame = target.segment(f, point.tag)->frame.origin();
+    return said;
+  }
+
+  /// A smoothed point, which is told in the last frame of its start, in that of its row.
+  Said smoothed(const Target& target, std::size_t f, const TargetPoint& point) const {
+    Said said = TrackRun::said(target, f, point);
+    if (!target.anchor) return said;
+    Eigen::Map<Eigen::VectorXd> position(said.point.mean.data(), axes_);
+    const auto own = target.segment(f, point.tag);
+    for (auto later = std::prev(target.segments[f].end()); later != own; --later) {
+      if (later->starts != own->starts) continue;
+      position -= later->shift.head(axes_);
+      turn_point(later->turn.inverse(), said.point, axes_);
+    }
     return said;
   }
 
@@ -466,7 +506,7 @@ class TrackRun {
     }
     if (!estimates_ && !sinks_.page) return;
     std::optional<Geodetic> place;
-    if (said.frame) place = tell_from(*target.anchor, LocalFrame(*said.frame, axes_), point);
+    if (said.frame) place = tell_from(*target.anchor, LocalFrame(*said.frame, axes_), row.predicted, point);
     if (said.filter == 0) target.tally.goes_to(point.mean, axes_);
     estimates_.write({row.track, filter, point, place});
     if (sinks_.page) sinks_.page->estimated(row, said.filter, point, plot.size);
@@ -474,25 +514,15 @@ class TrackRun {
 
   /// Tells a point in `frame` from `anchor`: its position about that, and all else along east, north and up at the
   /// point. Of the covariance, the blocks of each derivative are told. Returns where it is.
-  Geodetic tell_from(const LocalFrame& anchor, const LocalFrame& frame, TargetPoint& point) const {
-    const auto n = static_cast<Eigen::Index>(point.mean.size());
+  Geodetic tell_from(const LocalFrame& anchor, const LocalFrame& frame, bool predicted, TargetPoint& point) const {
     Position position{};
     std::copy_n(point.mean.begin(), axes_, position.begin());
-    const Eigen::Matrix3d turn = matrix(frame.local_axes(position));
-    Eigen::Map<Eigen::VectorXd> means(point.mean.data(), n);
-    Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>> covariances(
-        point.covariance.data(), n, n);
-    for (Eigen::Index at = 0; at + axes_ <= n; at += axes_) {
-      Eigen::Vector3d mean = Eigen::Vector3d::Zero();
-      Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
-      mean.head(axes_) = means.segment(at, axes_);
-      covariance.topLeftCorner(axes_, axes_) = covariances.block(at, at, axes_, axes_);
-      mean = turn * mean;
-      covariance = turn * covariance * turn.transpose();
-      means.segment(at, axes_) = mean.head(axes_);
-      covariances.block(at, at, axes_, axes_) = covariance.topLeftCorner(axes_, axes_);
-    }
-    const Geodetic place = frame.to_geodetic(position);
+    // What was predicted goes on about the Earth from where the frame begins, rather than straight into space.
+    const bool about = predicted && axes_ == 3 && !fixed_;
+    const LocalFrame map = about ? LocalFrame(frame.origin(), 2) : frame;
+    turn_point(matrix(map.local_axes(position)), point, axes_);
+    Geodetic place = map.to_geodetic(position);
+    if (about) place.altitude_m = frame.origin().altitude_m + position[2];
     const Position told = anchor.to_local(place);
     std::copy_n(told.begin(), axes_, point.mean.begin());
     return place;
@@ -520,7 +550,7 @@ class TrackRun {
         try {
           if (filters_[f].smooth)
             target.filters[f].smoothed([&](const TargetPoint& point) {
-              if (!point.is_start) last.said.push_back(said(target, f, point));
+              if (!point.is_start) last.said.push_back(smoothed(target, f, point));
             });
         } catch (const std::exception& error) {
           refuse_failure(f, target.rows.back(), error);
