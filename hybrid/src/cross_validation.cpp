@@ -96,10 +96,11 @@ LossSurface::LossSurface(std::size_t numbers, double step,
       }
 }
 
-LossSurface::Shape LossSurface::shape(const RowCounts& counts) const {
+LossSurface::Shape LossSurface::shape(const RowCounts& counts, std::size_t together) const {
   const auto n = static_cast<Eigen::Index>(numbers_);
   std::vector<double> sums(losses_.size(), 0.0);
-  Eigen::VectorXd slope(n), sum = Eigen::VectorXd::Zero(n);
+  Eigen::VectorXd slope = Eigen::VectorXd::Zero(n), sum = slope;
+  std::size_t added = 0;
   Eigen::MatrixXd squares = Eigen::MatrixXd::Zero(n, n), curvature(n, n);
   const auto place = [&](Eigen::Index i, Eigen::Index j) {  // of the upper triangle, row by row
     return static_cast<std::size_t>(1 + 2 * (i * n - i * (i - 1) / 2 + j - i));
@@ -109,10 +110,14 @@ LossSurface::Shape LossSurface::shape(const RowCounts& counts) const {
       if (std::isnan(losses_[0][r][k]) || (counts && !counts(r, k))) continue;
       for (std::size_t s = 0; s < losses_.size(); ++s) sums[s] += losses_[s][r][k];
       for (Eigen::Index i = 0; i < n; ++i)
-        slope[i] = (losses_[place(i, i)][r][k] - losses_[place(i, i) + 1][r][k]) / (2.0 * step_);
+        slope[i] += (losses_[place(i, i)][r][k] - losses_[place(i, i) + 1][r][k]) / (2.0 * step_);
+      if (++added % together > 0) continue;
       sum += slope;
       squares += slope * slope.transpose();
+      slope.setZero();
     }
+  sum += slope;
+  squares += slope * slope.transpose();
   const auto bend = [&](Eigen::Index i, Eigen::Index j) {
     return sums[place(i, j)] + sums[place(i, j) + 1] - 2.0 * sums[0];
   };

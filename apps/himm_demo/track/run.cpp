@@ -30,7 +30,8 @@ struct Target {
   std::map<std::pair<std::size_t, std::string>, std::vector<double>> innovations{};  // the last of a filter and sensor
   TrackTally tally{};
 
-  const Row& row(std::size_t tag) const { return rows[tag + rows.size() - tally.rows]; }
+  std::size_t first_tag() const { return tally.rows - rows.size(); }
+  const Row& row(std::size_t tag) const { return rows[tag - first_tag()]; }
 
   /// That of a row's estimate.
   std::vector<Segment>::const_iterator segment(std::size_t filter, std::size_t tag) const {
@@ -485,6 +486,9 @@ class TrackRun {
         before.assign(own.begin(), own.end());
       }
       if (point.nis) {
+        const bool again = point.tag > target.first_tag() && target.row(point.tag - 1).plot.time == row.plot.time;
+        FilterOutcome& its = outcome_.filters[said.filter];
+        (again ? its.nis_again : its.nis_first).add(*point.nis / static_cast<double>(plot.size));
         target.tally.nis[said.filter].sum += *point.nis;
         target.tally.nis[said.filter].quantities += static_cast<std::size_t>(plot.size);
       }

@@ -216,8 +216,9 @@ class Lean {
 /// What one filter made of the recording.
 struct FilterOutcome {
   SumsByPart sums;
-  InnovationTally with_velocity{};                     ///< of positions, in rows with a velocity
-  InnovationTally without_velocity{};                  ///< and in others
+  InnovationTally with_velocity{};       ///< of positions, in rows with a velocity
+  InnovationTally without_velocity{};    ///< and in others
+  RunningMean nis_first{}, nis_again{};  ///< a quantity, of rows later than, or as late as, the one before
   std::map<std::string, std::array<Lean, 8>> leans{};  ///< of each sensor's quantities, and along and across the way
   std::size_t rejected = 0;                            ///< by the gate
   std::size_t restarts = 0;                            ///< after a gap

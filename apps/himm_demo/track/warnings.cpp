@@ -35,6 +35,7 @@ class Warnings {
     of_lost_filters();
     of_gates();
     of_nis();
+    of_common_errors();
     of_truth();
     of_sides();
     of_shares();
@@ -195,11 +196,33 @@ class Warnings {
     };
     constexpr double much = 0.8;  // turns within a step make 0.7
     const double lasts = lasting(*std::ranges::min_element(outcome_.filters, {}, lasting));
+    warn(!low && causes_ == 0 && greatest >= 0.5 && greatest < 1.0 && alike > much,
+         "{}: neighbouring innovations are much the same (correlation {:.2f}): errors of positions last, or were "
+         "interpolated, and make the estimates worse than they say; raise sigma_position_m, or leave the measured rows "
+         "alone",
+         file_, alike);
     warn(!low && lasts > much && greatest < 1.0,
          "{}: neighbouring innovations of positions are much the same (correlation {:.2f}), beside velocities that "
          "count: errors of positions that last, as those of a GNSS do, make the estimates worse than they say; raise "
          "sigma_position_m",
          file_, lasts);
+  }
+
+  /// Of rows of one time the second is told with what was said of the first, so that their errors alone count.
+  void of_common_errors() {
+    const auto agrees = [](const FilterOutcome& one) {
+      if (std::min(one.nis_first.count(), one.nis_again.count()) < 50) return false;
+      const double first = one.nis_first.mean(), again = one.nis_again.mean();
+      return again < 0.2 || (first > 1.2 && again < 0.4 * first && again < 0.7);
+    };
+    const auto found = std::ranges::find_if(outcome_.filters, agrees);
+    if (found == outcome_.filters.end() || warnings_.size() > causes_) return;
+    warn(
+        true,
+        "{}: rows of one time agree with each other better than their sigmas say (NIS a quantity {:.2g}, and {:.2g} of "
+        "the first of each time): the sigmas are too great, or errors are in part common to all, count as new in each, "
+        "and the estimates are farther off than they say; lower the sigmas, or give one row of each time",
+        file_, found->nis_again.mean(), found->nis_first.mean());
   }
 
   void of_truth() {

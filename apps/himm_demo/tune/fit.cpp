@@ -68,7 +68,8 @@ constexpr double usual_sojourn_steps = 20.0;  // as .95 on the diagonal
 constexpr std::array factors = {0.03, 0.1, 0.3, 3.0, 10.0, 30.0};  // by which a number may be off at first
 constexpr std::array turns = {0.1, 0.3, 1.0, 2.0, 3.0, 5.0, 8.0, 12.0, 20.0, 30.0};  // at first, in ° a step
 constexpr std::size_t most_sweeps = 4;
-constexpr double nothing = 1e-3;  // as good as, times a noise
+constexpr double nothing = 1e-3;    // as good as, times a noise
+constexpr std::size_t blocks = 20;  // of rows whose errors last, as those of estimates do
 
 /// How often a search of n numbers may ask.
 std::size_t budget(std::size_t numbers) { return numbers == 0 ? 1 : 25 * (numbers + 1); }
@@ -406,7 +407,8 @@ class Fitter {
   /// To the least loss, by the surface; the numbers have their standard errors, and a sensor's noise without one is as
   /// great as it may be. The best that was found on the way goes to `better`.
   Fitted with_errors(const Fitted& about, const LossSurface& surface, Fitted& better) const {
-    const auto shape = surface.shape(counts_);
+    const bool errors_last = options_.objective != Objective::prequential;
+    const auto shape = surface.shape(counts_, errors_last ? std::max<std::size_t>(data_.measurements / blocks, 1) : 1);
     Fitted best = least(about, shape);
     std::vector<Fitted> rivals;
     const auto errors = errors_of(best, told_numbers(about.settings), shape, rivals);
@@ -1036,6 +1038,13 @@ TunedFilter tune(const FilterSettings& settings, const TuneData& data, const Tun
         c > 0 ? count_of(free_numbers(bases[c - 1].settings, data, options), bases[c - 1].settings, options) : 0);
   }
   tuned.selected = select_settings(tuned.held_out, tuned.numbers);
+  FilterSettings unscented = tuned.best().settings;
+  const auto by_radar = [](const auto& named) { return named.second.radar || named.second.range_rate; };
+  if (std::exchange(unscented.member, MemberType::ukf) == MemberType::ekf &&
+      std::ranges::any_of(data.sensors, by_radar)) {
+    const auto loss = [&](const FilterSettings& own) { return mean_loss(judged(told, own, options.objective)); };
+    tuned.by_unscented = (loss(tuned.best().settings) - loss(unscented)) * static_cast<double>(told.measurements);
+  }
   return tuned;
 }
 

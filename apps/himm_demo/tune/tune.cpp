@@ -59,11 +59,18 @@ std::vector<std::string> advice_of(const Diagnosis& diagnosis) {
       {"pessimistic sensor", "errors are smaller than believed: lower its sigmas, by a factor of {:.3g} at most"},
       {"gain too low", "errors last: raise sigma_w, or lower its sigmas"},
       {"gain too high", "errors alternate: lower sigma_w, or raise its sigmas"}};
+  constexpr double much_the_same = 0.5;
   std::vector<std::string> sentences;
   for (const auto& [name, innovations, weight] : diagnosis.sensors)
     if (const auto found = remedies.find(verdict_of(innovations)); found != remedies.end())
       sentences.push_back(fmt::format("{}{}: {}.", name == "all rows" ? "" : "sensor ", name,
                                       fmt::format(fmt::runtime(found->second), std::sqrt(innovations.mean_square()))));
+  for (const auto& [name, innovations, weight] : diagnosis.sensors)
+    if (verdict_of(innovations) == "pessimistic sensor" && innovations.autocorrelation() > much_the_same)
+      sentences.push_back(fmt::format(
+          "{}{}: neighbouring innovations are alike: if rows were averaged, smoothed or interpolated, sigmas that fit "
+          "them are of a curve, and the target is farther from the estimates than they say.",
+          name == "all rows" ? "" : "sensor ", name));
   std::size_t rows = 0;
   for (const auto& mode : diagnosis.modes) rows += mode.innovations.count();
   for (const auto& mode : diagnosis.modes)
@@ -526,6 +533,12 @@ TuneFindings tune_and_report(const FilterSettings& filter, const TuneData& data,
       say("\nThe numbers of a fuzzy mode are those by which its best mode alone predicts best: of a target whose mode "
           "is random they may be farther off than their standard errors say.\n");
     if (const std::string truth = text_of_truth(before, *after); !truth.empty()) say(truth);
+    constexpr double much = 10.0;
+    if (options.objective == Objective::prequential && tuned.by_unscented > much)
+      say(
+          fmt::format("\nA UKF in place of the EKF predicts {:.0f} nats better by the same settings, as where a start "
+                      "from rows of a radar that are close to each other is far off: fit with --set member=ukf.\n",
+                      tuned.by_unscented));
     if (std::ranges::any_of(tuned.best().numbers, [](const FittedNumber& number) {
           return number.sensor && !number.at_rounding && std::isinf(number.error);
         }))

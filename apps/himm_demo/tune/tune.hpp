@@ -171,6 +171,7 @@ struct TunedFilter {
   std::vector<RowLosses> held_out;    ///< of each
   Selected selected;
   std::vector<RowPlace> strays{};  ///< rows that nothing was fitted to, nor judged by
+  double by_unscented = 0.0;       ///< so much less all rows lose by the best settings with a UKF in place of an EKF
 
   const Candidate& before() const { return candidates.front(); }
   const Candidate& best() const { return candidates[selected.best]; }

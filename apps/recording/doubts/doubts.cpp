@@ -37,13 +37,20 @@ double rounding_of(std::vector<double> numbers) {
   const auto single = std::ranges::count_if(apart, [&](double step) { return step < 1.5 * least; });
   const bool is_even = 5 * single > 4 * std::ssize(numbers) && 2 * apart.size() > numbers.size();
   if (10 * whole >= 9 * std::ssize(apart) && !is_even) return least / std::sqrt(12.0);
+  // As a float holds them, whose steps grow with the number.
+  const auto step_at = [](double number) { return number == 0.0 ? 0.0 : std::exp2(std::ilogb(number) - 23); };
+  const auto held = std::ranges::count_if(numbers, [&](double number) {
+    return std::abs(number - static_cast<double>(static_cast<float>(number))) <= 0.15 * step_at(number);
+  });
+  const double float_step = step_at(numbers[numbers.size() / 2]);
+  const double by_float = 20 * held >= 19 * std::ssize(numbers) && least > 0.5 * float_step ? float_step : 0.0;
   for (double digits = 1.0; digits < 1e7; digits *= 10.0)  // as they are written
     if (std::ranges::all_of(numbers, [&](double number) {
           const double all = number * digits;
           return std::abs(all - std::round(all)) < 1e-9 + 1e-15 * std::abs(all);
         }))
-      return 1.0 / (digits * std::sqrt(12.0));
-  return 0.0;
+      return std::max(by_float, 1.0 / digits) / std::sqrt(12.0);
+  return by_float / std::sqrt(12.0);
 }
 
 struct Doubts::Parts {
@@ -213,7 +220,8 @@ void Doubts::Parts::say_reading(Say& say, const RecordingReader& recording) cons
                                                             {"sensors", alike({sensors.begin(), sensors.end()})}};
   for (const auto& [what, two] : twins)
     say(!two.empty(),
-        "{} {} differ in case, blanks, Unicode forms or the writing of a number only, and count as two; write them alike, if they are "
+        "{} {} differ in case, blanks, Unicode forms or the writing of a number only, and count as two; write them "
+        "alike, if they are "
         "the same",
         what, two);
   const auto swallowed = recording.csv().swallowed();

@@ -77,6 +77,11 @@ void Repeats::see(Sensor& sensor, const Trail& trail, const Spoke& now) {
   }
   sensor.way = way;
   if (way > 0.0) (sensor.runs[0] > 0 ? after_ : on_).add(way);
+  const auto& recent = trail.recent;
+  if (recent.reaches(3) && trail.even > 2 && sensor.curves.size() < many) {
+    const Vector<3> off = now.at - 4.0 * recent[0] + 6.0 * recent[1] - 4.0 * recent[2] + recent[3];
+    sensor.curves.emplace_back(length(off), length(now.at - recent[3]));
+  }
   Vector<3> change = now.velocity - last.velocity;
   if (std::isnan(now.velocity[2])) change[2] = 0.0;
   const std::array changes = {way, rise, length(change), length(now.at - now.error - last.at + last.error)};
@@ -111,25 +116,33 @@ bool Repeats::comes_back() const {
 }
 
 void Repeats::say_interpolated(Say& say, const std::vector<const Sensor*>& sensors, double rounding) const {
-  std::size_t straight = 0;
-  const double least_bend = 10.0 * std::sqrt(12.0) * rounding;  // else a lone step of the numbers
-  for (const Sensor* sensor : sensors) {
-    auto bends = sensor->bends;
-    if (bends.size() < 2 * few) continue;
-    std::ranges::sort(bends);
-    const double usual = bends[bends.size() * 19 / 20].first;
-    std::set<float> different;  // few, where all is rounded
-    for (const auto& [bend, way] : bends)
-      if (different.size() <= few) different.insert(static_cast<float>(bend));
-    if (different.size() > few && usual > least_bend)
-      straight += static_cast<std::size_t>(std::ranges::count_if(
-          bends, [&](const auto& each) { return each.first < std::min(0.02 * usual, 5e-4 * each.second); }));
-  }
-  say(5 * straight > 2 * bent_,
-      "{} of {} positions are on the line between those before and after, to within a fiftieth of what others are off "
-      "it, as if they were interpolated: they count as new measurements, and the filters take their estimates for "
-      "better than they are; leave the measured rows alone",
-      straight, bent_);
+  const auto count = [&](Sensor::Offs Sensor::*which, double least) {  // those that are off by next to nothing, and all
+    std::pair<std::size_t, std::size_t> result;
+    for (const Sensor* sensor : sensors) {
+      auto offs = sensor->*which;
+      result.second += offs.size();
+      if (offs.size() < 2 * few) continue;
+      std::ranges::sort(offs);
+      const double usual = offs[offs.size() * 19 / 20].first;
+      std::set<float> different;  // few, where all is rounded
+      for (const auto& [off, way] : offs)
+        if (different.size() <= few) different.insert(static_cast<float>(off));
+      if (different.size() > few && usual > least)
+        result.first += static_cast<std::size_t>(std::ranges::count_if(
+            offs, [&](const auto& each) { return each.first < std::min(0.02 * usual, 5e-4 * each.second); }));
+    }
+    return result;
+  };
+  const double step = std::sqrt(12.0) * rounding;  // else a lone one of the numbers
+  const auto [straight, bent] = count(&Sensor::bends, 10.0 * step);
+  const auto [cubic, curved] = count(&Sensor::curves, 50.0 * step);
+  const bool on_lines = 5 * straight > 2 * bent;
+  say(on_lines || 4 * cubic > curved,
+      "{} of {} positions are on the {}, to within a fiftieth of what others are off it, as if they were interpolated: "
+      "they count as new measurements, and the filters take their estimates for better than they are; leave the "
+      "measured rows alone",
+      on_lines ? straight : cubic, on_lines ? bent : curved,
+      on_lines ? "line between those before and after" : "cubic through the four before");
 }
 
 /// Positions that are held while the target moves.

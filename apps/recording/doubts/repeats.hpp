@@ -20,11 +20,12 @@ struct Stays {
 class Repeats {
  public:
   struct Sensor {
-    double way = 0.0;                                // of the last row, along the ground if there is a height
-    std::array<std::size_t, 4> runs{};               // of stays_, that last
-    Recent<std::pair<double, double>> moves{};       // ways, and speeds along them
-    std::vector<std::pair<double, double>> bends{};  // how far positions are off the line between the two beside them,
-                                                     // and these from each other
+    double way = 0.0;                           // of the last row, along the ground if there is a height
+    std::array<std::size_t, 4> runs{};          // of stays_, that last
+    Recent<std::pair<double, double>> moves{};  // ways, and speeds along them
+    using Offs = std::vector<std::pair<double, double>>;
+    Offs bends{};   // how far positions are off the line between the two beside them, and these from each other
+    Offs curves{};  // fourth differences, which a cubic has none of, and how far their first is from their last
     /// From one row to the next much farther than before and after, and not back again: nothing turns so sharply.
     struct Leap {
       Vector<3> from;

@@ -59,13 +59,14 @@ class LossSurface {
     std::vector<double> least;
     /// The standard errors of the best numbers, H⁻¹ J H⁻¹ with the curvature H and the sum J of squared slopes of the
     /// rows, so that the losses need not be those of a right model; infinite of numbers on which the loss does not
-    /// depend or has no least value.
+    /// depend or has no least value. Slopes of rows that follow each other are added up first, so many, where losses
+    /// are those of errors that last.
     std::vector<double> error;
     /// For each number where all of them are best if it is off by one, by the parabola: the columns of H⁻¹, over its
     /// own element; empty of numbers whose error is infinite.
     std::vector<std::vector<double>> ridges;
   };
-  Shape shape(const RowCounts& counts = {}) const;
+  Shape shape(const RowCounts& counts = {}, std::size_t together = 1) const;
 
   /// So often the losses are asked.
   static std::size_t asked(std::size_t numbers) { return 1 + numbers + numbers * numbers; }
