@@ -72,6 +72,20 @@ TEST(LossSurface, TellsWhereTheOthersAreBestIfANumberIsOff) {
 
 /// Minus the log-densities of numbers by a mean and the logarithm of a standard deviation; a third setting changes
 /// nothing.
+TEST(LossSurface, RowsThatOnlyRepeatOthersTellNoMoreTogether) {
+  const auto of = [](std::size_t copies) {
+    return LossSurface(1, 0.1, [=](const std::vector<double>& x) {
+      RowLosses result(1);
+      for (std::size_t k = 0; k < 30 * copies; ++k)
+        result[0].push_back(std::pow(x[0] - std::sin(static_cast<double>(k / copies)), 2));
+      return result;
+    });
+  };
+  const double once = of(1).shape().error[0];
+  EXPECT_NEAR(of(4).shape({}, 4).error[0], once, 1e-12);
+  EXPECT_NEAR(of(4).shape().error[0], once / 2.0, 1e-12);
+}
+
 TEST(LossSurface, KnowsTheBestNumbersOfAGaussianAndTheirErrors) {
   std::mt19937_64 generator(4);
   std::normal_distribution<double> normal(5.1, 2.0);
