@@ -24,7 +24,7 @@ class Reporter {
   std::vector<std::string> made() {
     add_facts();
     describe();
-    const auto warnings = warnings_of(options_, recording_, filters_, outcome_);
+    std::vector<std::string> warnings = warnings_of(options_, recording_, filters_, outcome_);
     if (!warnings.empty()) result_.fact({"warnings"}, warnings);
     result_.page.title = "Tracks of " + options_.recording.file;
     for (const std::string& warning : warnings) result_.page.verdict.push_back("Warning: " + warning);
