@@ -127,14 +127,17 @@ void say_miscalibrated(const std::string& contestant, double log_loss, const Sur
                        std::string_view cause, Result& result, std::size_t repetitions) {
   constexpr double much = 0.05, much_of_a_class = 0.1;
   RunningMean of_all;
-  for (const RunningMean& of_class : surplus) of_all.add(of_class);
+  for (std::size_t c = 0; c < surplus.size(); ++c)
+    if (rows[c] > 0) of_all.add(surplus[c]);
   const double sure = 2.0 * std::sqrt(static_cast<double>(repetitions));
   const auto excess = [&](const RunningMean& of, double least) {
     if (of.count() < 2) return 0.0;
     const auto [by, half_width] = of.interval();
     return by > std::max(least, sure * half_width) ? by : 0.0;
   };
-  const auto own = each(surplus, [&](const RunningMean& of_class) { return excess(of_class, much_of_a_class); });
+  std::vector<double> own;  // of a class that no row has answers cannot be right
+  for (std::size_t c = 0; c < surplus.size(); ++c)
+    own.push_back(rows[c] > 0 ? excess(surplus[c], much_of_a_class) : 0.0);
   const auto worst = std::ranges::max_element(own);
   const double by = excess(of_all, much);
   const double of_shares = sum_of(rows, [all = sum_of(rows)](std::size_t of_class) {

@@ -48,6 +48,10 @@ std::string described_folds(const EvaluateOptions& options) {
                      options.groups.empty() ? "equal shares of every class" : "whole values of " + options.groups);
 }
 
+std::string paired_by(const EvaluateOptions& options) {
+  return options.groups.empty() ? "rows" : "values of " + options.groups;
+}
+
 /// Divides the rows into folds.
 using Deal = std::function<Folds(std::mt19937_64& generator)>;
 
@@ -82,6 +86,7 @@ struct Results {
 
   std::vector<Outcome> outcomes;
   ScratchArray<TimesRight> times_right;  ///< by row
+  const Groups* groups = nullptr;        ///< that rows are of, if --groups tells
 
   void add(std::vector<Outcome> fold) {
     if (outcomes.empty()) {
@@ -112,14 +117,27 @@ struct Results {
   }
 
   /// Right answers of a classifier less those of the first, paired by row; a row counts by its mean over the foldings.
+  /// Of groups, if there are any, the rows do not depend on chance apart: the interval is that of sums over groups.
   Interval minus_first(std::size_t i, std::size_t foldings) const {
-    RunningMean difference;
+    RunningMean by_row, by_group;
+    std::vector<std::pair<double, double>> sums;  // of a group's differences, and its rows
     ScratchCursor<TimesRight> of_row(times_right);
+    std::optional<ScratchCursor<std::uint32_t>> group_of;
+    if (groups) group_of.emplace(*groups);
     for (std::size_t row = 0; row < times_right.size(); ++row) {
       const TimesRight& times = of_row[row];
-      difference.add((static_cast<double>(times[i]) - static_cast<double>(times[0])) / static_cast<double>(foldings));
+      const double difference =
+          (static_cast<double>(times[i]) - static_cast<double>(times[0])) / static_cast<double>(foldings);
+      by_row.add(difference);
+      if (!groups) continue;
+      const std::size_t group = (*group_of)[row];
+      if (group >= sums.size()) sums.resize(group + 1);
+      sums[group].first += difference;
+      sums[group].second += 1.0;
     }
-    return difference.interval();
+    const double groups_a_row = static_cast<double>(sums.size()) / static_cast<double>(times_right.size());
+    for (const auto& [sum, rows] : sums) by_group.add(by_row.mean() + groups_a_row * (sum - rows * by_row.mean()));
+    return groups ? by_group.interval() : by_row.interval();
   }
 };
 
@@ -299,8 +317,9 @@ void say_scores(const DataTable& data, const Results& results, const EvaluateOpt
              described(options.learning));
   result.add(outcomes_table(results, options.foldings), {.summary = {"classifiers"}});
   result.say(
-      "(The class is the most likely one, the first of those that tie. Differences ± 95 % by paired rows. Necessity: 1 "
-      "− the possibility of the best other class. A truth is covered if its possibility is at least ½.)");
+      "(The class is the most likely one, the first of those that tie. Differences ± 95 % by paired {}. Necessity: 1 − "
+      "the possibility of the best other class. A truth is covered if its possibility is at least ½.)",
+      paired_by(options));
   const auto most = std::ranges::max_element(data.rows_of_class);
   const double most_often = static_cast<double>(*most) / static_cast<double>(data.size());
   const auto recognised = each(results.outcomes, &Outcome::recognised);
@@ -374,8 +393,8 @@ void fill(Report& page, const DataTable& data, const Results& results, const Eva
   page.verdict.insert(page.verdict.begin(),
                       fmt::format("{}. {}, {} foldings, seed {}; {}.", described(data), described_folds(options),
                                   options.foldings, options.seed, described(options.learning)));
-  page.panels.emplace_back(
-      ReportTable{"Classifiers", outcomes_table(results, options.foldings), "Differences ± 95 % by paired rows."});
+  page.panels.emplace_back(ReportTable{"Classifiers", outcomes_table(results, options.foldings),
+                                       fmt::format("Differences ± 95 % by paired {}.", paired_by(options))});
   constexpr std::size_t most_classes = 30;
   if (data.classes.size() <= most_classes)
     for (const Outcome& outcome : results.outcomes)
@@ -398,7 +417,8 @@ void run_evaluate(const EvaluateOptions& options) {
   const Deal deal = [&](std::mt19937_64& generator) {
     return groups ? folds_of(data, *groups, options.folds, generator) : folds_of(data, options.folds, generator);
   };
-  const Results results = evaluated(data, deal, options);
+  Results results = evaluated(data, deal, options);
+  results.groups = groups ? &*groups : nullptr;
   Result result = result_of_contest("Cross-validation of " + data.file, options.output);
   result.facts("file", data.file, "rows", data.size(), "classes", data.classes, "folds", options.folds, "foldings",
                options.foldings, "seed", options.seed, "smoothing", options.learning.smoothing, "misread",

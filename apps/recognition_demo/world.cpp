@@ -59,7 +59,9 @@ class Scoreboard {
       sum.minus_first.add(last(i) - last(0));
       sum.belief_in_truth += trace.belief[run.truth];
       sum.necessity_of_truth += 1.0 - greatest_other(trace.belief, run.truth);
-      if (last(i) > 0.0 && last(i) < 1.0) sum.ties += 1.0;
+      const double greatest = std::log(*std::ranges::max_element(trace.belief));
+      if (std::ranges::count_if(trace.belief, [&](double one) { return ties(std::log(one), greatest); }) > 1)
+        sum.ties += 1.0;
       sum.refused += trace.refused;
       for (std::size_t j = 0; j < i; ++j)
         if (last(j) != last(i)) same_[i][j] = false;

@@ -51,7 +51,7 @@ struct Score {
   RunningMean minus_first{};        ///< credit after the last report, less that of the first contestant, by run
   double belief_in_truth = 0.0;     ///< mean probability or possibility of the truth after the last report
   double necessity_of_truth = 0.0;  ///< mean of 1 − the greatest possibility of another pattern; fuzzy only
-  double ties = 0.0;                ///< share of the runs that end in a tie that includes the truth
+  double ties = 0.0;                ///< share of the runs that end in a tie for the most likely
   std::size_t refused = 0;          ///< reports that were passed over
   std::size_t same_as = 0;          ///< the first contestant with the same credit at the end of every run
 };

@@ -29,6 +29,7 @@ struct Target {
   std::deque<Row> rows{};                        // whose tags are their numbers
   std::map<std::pair<std::size_t, std::string>, std::vector<double>> innovations{};  // the last of a filter and sensor
   TrackTally tally{};
+  std::vector<std::size_t> refused{};  // of each filter, the last row that its gate turned away, counted from 1
 
   std::size_t first_tag() const { return tally.rows - rows.size(); }
   const Row& row(std::size_t tag) const { return rows[tag - first_tag()]; }
@@ -350,7 +351,7 @@ class TrackRun {
       filter.lost.add(target.rows.back().line);
       if (nis > Outliers::by_far) filter.lost_by_far.add(target.rows.back().line);
     }
-    stepped(target.rows.back(), target.tallies, news->tallies);
+    stepped(target, news->tallies);
     if (least && *least > Outliers::limit) {
       Outliers& outliers = outcome_.outliers;
       ++outliers.count;
@@ -402,8 +403,11 @@ class TrackRun {
       const int seen = axes_seen(plot, axes_);
       Position at{};
       double altitude = 0.0;
-      if (seen < axes_) {  // what the row does not tell is at the target's
-        std::copy_n(filter.output().mean.begin(), axes_, at.begin());
+      if (seen < axes_) {  // what the row does not tell is at the target's, which goes on until then
+        const TargetPoint last = filter.output();
+        const auto n = static_cast<std::size_t>(axes_);
+        for (std::size_t i = 0; i < n; ++i)
+          at[i] = last.mean[i] + (i + n < last.mean.size() ? (plot.time - last.time) * last.mean[i + n] : 0.0);
         altitude = frame.to_geodetic(at).altitude_m;
       }
       if (seen > 0) at = frame.to_local(place_of(plot, axes_, altitude));
@@ -533,15 +537,22 @@ class TrackRun {
   }
 
   /// What the step with a row changed.
-  void stepped(const Row& row, const std::vector<Tally>& before, const std::vector<Tally>& after) {
+  void stepped(Target& target, const std::vector<Tally>& after) {
+    const Row& row = target.rows.back();
+    const std::vector<Tally>& before = target.tallies;
+    target.refused.resize(filters_.size());
     std::size_t refusing = 0;  // filters whose gate turns the measurement away
     for (std::size_t f = 0; f < filters_.size(); ++f) {
       const bool rejected = after[f].rejected > before[f].rejected;
       if (rejected) ++refusing;
       if (sinks_.page && rejected) sinks_.page->rejected(row, f);
       const bool restarted = before[f].starts > 0 && after[f].starts > before[f].starts;
+      if (rejected) target.refused[f] = target.tally.rows;
+      constexpr std::size_t rows_of_a_start = 3;
+      const bool given_up =
+          restarted && target.refused[f] > 0 && target.tally.rows <= target.refused[f] + rows_of_a_start;
       if (sinks_.page && restarted) sinks_.page->restarted(row, f);
-      if (rejected && restarted) outcome_.filters[f].given_up.add(row.line);
+      if (given_up) outcome_.filters[f].given_up.add(row.line);
     }
     if (refusing == filters_.size()) outcome_.refused_by_all.add(row.line);
   }

@@ -30,6 +30,7 @@ class Warnings {
     of_rows();
     of_accuracy();
     of_bearings();
+    of_map();
     causes_ = warnings_.size();
     of_outliers();
     of_lost_filters();
@@ -81,6 +82,17 @@ class Warnings {
          "{}: positions scatter by {:.3g} m along an axis about their way, each otherwise, where {} {:.3g}: {}{}",
          file_, scatter, told_by, told, remedy(scatter),
          recording_.has_tracks() ? "" : "; if they are of several targets, tell these apart with --track-id COLUMN");
+  }
+
+  /// A map is true from where it begins; lines of sight from elsewhere are not quite straight on it.
+  void of_map() {
+    const double off = outcome_.doubts.off_the_map(recording_);
+    const RootMeanSquare& stated = outcome_.filters.front().sums[0].sigma[0];
+    warn(causes_ == 0 && warnings_.empty() && stated.count() > 0 && off > stated.value(),
+         "{}: far from where the map begins lines of sight are off by up to {:.2g} m, where the estimates are told to "
+         "be "
+         "{:.2g} m off: let it begin amid the sensors, by --origin LAT,LON,ALT",
+         file_, off, stated.value());
   }
 
   void of_bearings() {

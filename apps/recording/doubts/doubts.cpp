@@ -202,6 +202,10 @@ double Doubts::apart(double sigma_position, double sigma_velocity) const {
   return parts_->rates.apart(parts_->clocks.step(), sigma_position, sigma_velocity);
 }
 
+double Doubts::off_the_map(const RecordingReader& recording) const {
+  return recording.seen_from_places() && recording.axes() == 2 ? parts_->stations.off_the_map() : 0.0;
+}
+
 bool Doubts::from_one_that_moves() const { return parts_->stations.from_one_that_moves(); }
 
 double Doubts::rounding(const RecordingReader& recording) const {

@@ -34,6 +34,9 @@ class Doubts {
   /// Whether bearings come from one place that moves.
   bool from_one_that_moves() const;
 
+  /// So far, in m, lines of sight from sensors on the Earth are off the straight ones of a map of two axes, at most.
+  double off_the_map(const RecordingReader& recording) const;
+
   /// Sentences, each with the name or the option that mends it.
   std::vector<std::string> sentences(const RecordingReader& recording) const;
 

@@ -221,12 +221,12 @@ void Stations::say_truth(Say& say, double step) const {
 }
 
 void Stations::say_sensors(Say& say, const RecordingReader& recording) const {
-  constexpr double earth = 6.371e6, far_away = 4e5;
+  constexpr double far_away = 4e5;
   if (recording.seen_from_places() && recording.axes() == 2 && farthest_ > far_away)
     return say(true,
                "sensors or targets are {:.3g} km from where the map begins, on which lines of sight from elsewhere are "
                "straight: it is {:.2g} km off there",
-               farthest_ / 1e3, std::pow(farthest_, 3) / (6e3 * earth * earth));
+               farthest_ / 1e3, off_the_map() / 1e3);
   std::set<std::string> doubted;  // so that none is named twice
   for (const auto& [sensors, rows] : apart_) {
     const auto& [one, other] = sensors;

@@ -35,6 +35,8 @@ class Stations {
 
   /// The distance of sensors and positions from where they are counted, in m.
   double farthest() const { return farthest_; }
+  /// So far off is the farthest place on a map of two axes on which lines of sight from elsewhere are straight, in m.
+  double off_the_map() const { return std::pow(farthest_, 3) / (6.0 * earth * earth); }
 
   /// `step` is the usual one in s; `no_truth` whether a truth of (0, 0) stands for none.
   void say(Say& say, const RecordingReader& recording, double step, bool no_truth) const;
@@ -65,6 +67,7 @@ class Stations {
     std::size_t count = 0;
     std::array<double, 2> sums{};
   } bends_;  // of paths, so read
+  static constexpr double earth = 6.371e6;
   double farthest_ = 0.0;
   std::size_t errors_ = 0, same_ = 0;  // about the truth, and those that are much as the one before
   double off_ = 0.0;                   // sum of those
