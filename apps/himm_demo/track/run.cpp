@@ -514,7 +514,8 @@ class TrackRun {
     }
     if (!estimates_ && !sinks_.page) return;
     std::optional<Geodetic> place;
-    if (said.frame) place = tell_from(*target.anchor, LocalFrame(*said.frame, axes_), row.predicted, point);
+    if (said.frame)
+      place = tell_from(*target.anchor, LocalFrame(*said.frame, axes_), row.predicted && !has_home(filter), point);
     if (said.filter == 0) target.tally.goes_to(point.mean, axes_);
     estimates_.write({row.track, filter, point, place});
     if (sinks_.page) sinks_.page->estimated(row, said.filter, point, plot.size);
