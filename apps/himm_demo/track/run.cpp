@@ -183,6 +183,11 @@ class TrackRun {
       Row row{.line = target.rows.back().line, .track = name, .predicted = true};
       row.plot.time = of_day ? time_of_day_after(target.tally.last_time, *options_.predict_to) : *options_.predict_to;
       if (row.plot.time <= target.tally.last_time) continue;
+      const double ahead = row.plot.time - target.tally.last_time;
+      const auto begins_anew = [=](const FilterSettings& filter) {
+        return filter.restart_after_s.value_or(infinity) <= ahead;
+      };
+      outcome_.unpredicted += std::ranges::any_of(filters_, begins_anew) ? 1U : 0U;
       step(target, std::move(row));
       ++outcome_.predicted;
     }

@@ -287,6 +287,7 @@ struct TrackOutcome {
   std::map<std::string, std::size_t> range_rate_unknown;  ///< the same of range rates
   Counted refused_by_all;                                 ///< measurements that every filter's gate turned away
   std::size_t predicted = 0;                              ///< tracks, up to the time that was asked for
+  std::size_t unpredicted = 0;                            ///< those of them of which a filter begins anew before
   std::optional<Geodetic> origin;  ///< from where positions are counted, if that is one place for all tracks
   Doubts doubts;
   std::map<std::string, Doubts> doubts_of;  ///< each track, up to some

@@ -57,7 +57,8 @@ class Warnings {
     warn(validity.outside > 0,
          "{}:{}: r σ_α²/σ_r is {:.2g} at a range of {:.0f} m, where the standard conversion of radar measurements "
          "holds below {}; so it is in {} of {} measurements; set sigma_range_m above {:.6g}, so that their covariance "
-         "covers the error of the conversion, or radar_measurement=polar, which converts only for the start",
+         "covers the error of the conversion, or radar_measurement=polar, best with member=ukf, which converts only "
+         "for the start",
          file_, validity.first_line, validity.first_value, validity.first_range, Validity::limit, validity.outside,
          validity.measurements, std::ceil(validity.sigma_range_needed / unit) * unit);
   }
@@ -305,6 +306,10 @@ class Warnings {
       for (const auto& [sensor, own] : filter.sensors)
         warn(!outcome_.sensors.contains(sensor), "key 'sensor.{}' of filter '{}': no row of {} is of that sensor",
              sensor, filter.name, file_);
+    warn(outcome_.unpredicted > 0,
+         "{}: of {} of {} tracks nothing is predicted by a filter whose restart_after_s goes by before the time of "
+         "--predict-to: give a greater one, or an earlier time",
+         file_, outcome_.unpredicted, outcome_.predicted);
     warn(options_.predict_to && outcome_.predicted == 0,
          "{}: nothing was predicted: every track ends at the time of --predict-to or later; write it as the recording "
          "writes its times",
