@@ -10,7 +10,8 @@ inline constexpr std::size_t few_rows = 20;
 
 /// What to say of two words that are alike.
 inline constexpr const char* alike_words =
-    ": {} differ in case, blanks, Unicode forms or the writing of a number only, and count as two; write them alike, if they are the "
+    ": {} differ in case, blanks, Unicode forms or the writing of a number only, and count as two; write them alike, "
+    "if they are the "
     "same";
 
 /// Words beyond this many are names of things, not values of a feature.

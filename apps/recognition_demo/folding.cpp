@@ -181,10 +181,10 @@ Groups groups_of(const DataTable& data, const std::string& column) {
   }
   if (const std::string two = alike(each(numbers, [](const auto& one) { return std::string_view(one.first); }));
       !two.empty())
-    complain(
-        fmt::format("recognition_demo: warning: {}: column {}: {} differ in case, blanks, Unicode forms or the writing of a number "
-                    "only, and count as two groups",
-                    data.file, in_quotes(column), two));
+    complain(fmt::format(
+        "recognition_demo: warning: {}: column {}: {} differ in case, blanks, Unicode forms or the writing of a number "
+        "only, and count as two groups",
+        data.file, in_quotes(column), two));
   return groups;
 }
 
