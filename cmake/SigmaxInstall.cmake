@@ -77,7 +77,6 @@ and pkg-config.")
 set(CPACK_DEBIAN_TOOLS_PACKAGE_NAME sigmax-tools)
 set(CPACK_DEBIAN_TOOLS_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_TOOLS_PACKAGE_SHLIBDEPS ON)
-set(CPACK_DEBIAN_TOOLS_PACKAGE_SUGGESTS gnuplot-nox)  # for --plots
 set(CPACK_COMPONENT_TOOLS_DESCRIPTION "tracking and recognition by probability and possibility
 The programs of sigmax, a library of sigma-max inference. himm_demo compares
 the interacting multiple-model filter with a random and with a fuzzy mode, on

@@ -1,4 +1,4 @@
-// A drifting boat, seen from a ship by its bearing alone, by sums and by maxima. Arguments: runs, a folder for plots.
+// A drifting boat, seen from a ship by its bearing alone, by sums and by maxima. Arguments: runs, a folder for a page.
 
 #include <sigmax/estimation/grid_filter.hpp>
 
@@ -48,5 +48,6 @@ int main(int argc, char** argv) {
   }
   std::cout << "RMSE of position over " << runs << " runs of " << scans << " scans in m, with 95 % confidence\n";
   study.print();
-  if (argc > 2) save_svg(study.chart("Bearings only", "scan", "RMSE, m"), std::string(argv[2]) + "/bearings_only.svg");
+  if (argc > 2)
+    examples::save(study.chart("Bearings only", "scan", "RMSE, m"), argv[2] + std::string("/bearings_only.html"));
 }

@@ -1,4 +1,4 @@
-// A state of which only the square is seen, by sums and by maxima. Arguments: runs, and a folder for plots.
+// A state of which only the square is seen, by sums and by maxima. Arguments: runs, and a folder for pages.
 
 #include <sigmax/estimation/grid_filter.hpp>
 
@@ -54,9 +54,10 @@ int main(int argc, char** argv) {
                            .joined = true};
     const auto random = follow<Random>(measurements, belief), fuzzy = follow<Fuzzy>(measurements, belief);
     study.add(truth, random, fuzzy);
-    if (run == 8 && argc > 2) save_svg(belief, std::string(argv[2]) + "/growth_model_belief.svg");
+    if (run == 8 && argc > 2) examples::save(belief, argv[2] + std::string("/growth_model_belief.html"));
   }
   std::cout << "RMSE over " << runs << " runs of " << steps << " steps, with 95 % confidence\n";
   study.print();
-  if (argc > 2) save_svg(study.chart("Growth model", "step", "RMSE"), std::string(argv[2]) + "/growth_model.svg");
+  if (argc > 2)
+    examples::save(study.chart("Growth model", "step", "RMSE"), argv[2] + std::string("/growth_model.html"));
 }

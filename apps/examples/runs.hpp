@@ -5,10 +5,15 @@
 #include <iomanip>
 #include <iostream>
 
-#include "result/pictures.hpp"
 #include "result/report.hpp"
+#include "support/output.hpp"
 
 namespace examples {
+
+/// Writes a page with a chart.
+inline void save(const sigmax::apps::LineChart& chart, const std::string& file) {
+  sigmax::apps::write_file(file, sigmax::apps::html({.title = chart.title, .panels = {chart}}));
+}
 
 /// The root mean square errors of four estimates over many runs: what sums and what maxima make of the same
 /// measurements. A track is one number for each step, or as many as the study is told: x, y, x, y, …

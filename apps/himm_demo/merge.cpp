@@ -54,7 +54,6 @@ void merge(const MergeOptions& options) {
   arguments.insert(arguments.end(), {"--finished", "--out", options.output.out});
   if (options.output.wide) arguments.emplace_back("--wide");
   if (!options.output.report.empty()) arguments.insert(arguments.end(), {"--report", options.output.report});
-  if (!options.output.plots.empty()) arguments.insert(arguments.end(), {"--plots", options.output.plots});
   if (options.output.quiet) arguments.emplace_back("--quiet");
   run_again(subcommands, "himm_demo", arguments);
 }

@@ -7,7 +7,6 @@
 
 #include "himm_demo/experiment/experiment.hpp"
 #include "himm_demo/experiment/sentences.hpp"
-#include "result/braille.hpp"
 #include "result/result.hpp"
 #include "study/study.hpp"
 
@@ -609,11 +608,7 @@ void report(const Found& found, ResultFiles& files) {
   for (const auto& filter : experiment.filters)
     page.groups.push_back({.name = filter.name, .shown = !crowded(experiment) || page.groups.size() < 4});
   page.chooser = "Show";
-  if (files.report_wanted() || charts_on_terminal(options.output)) {
-    page.views = views_of(experiment, found.performances);
-    const auto& panels = page.views.front().panels;  // of which the RMSE in x and the weights end the output
-    result.on_terminal = {std::get<LineChart>(panels[0]), std::get<LineChart>(panels[3])};
-  }
+  if (files.report_wanted()) page.views = views_of(experiment, found.performances);
   page.last.emplace_back(Words{"Settings in force", as_toml(experiment.filters), true});
   result.publish(files);
 }
@@ -655,7 +650,6 @@ void add_simulate(CLI::App& program, const std::string& command) {
   add_seed(app, options->seed);
   add_filter_options(app, options->filters);
   add_results(app, options->output, command);
-  add_no_chart(app, options->output.no_chart);
   app.run([options] { simulate_and_report(*options); });
 }
 

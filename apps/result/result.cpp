@@ -3,8 +3,6 @@
 #include <cstdio>
 #include <system_error>
 
-#include "result/braille.hpp"
-#include "result/pictures.hpp"
 #include "support/json.hpp"
 #include "support/progress.hpp"
 #include "version.hpp"
@@ -45,13 +43,6 @@ void add_results(Subcommand app, OutputOptions& options, const std::string& comm
   add_quiet(app, options.quiet);
   add_wide(app, options.wide);
   app.option("--report", options.report, "File for the charts, a page for a browser [report.html in DIR]").type("FILE");
-  app.option("--plots", options.plots, "Directory for the same charts as SVG and PDF, drawn by gnuplot")
-      .type("DIR")
-      .check([](const std::string&) { return need_gnuplot(), ""; });  // throws, before any work
-}
-
-void add_no_chart(Subcommand app, bool& no_chart) {
-  app.flag("--no-chart", no_chart, "No charts at the end, where the output is a terminal of 80 columns or more");
 }
 
 void refuse_to_overwrite(const std::string& option, const std::string& file, const std::vector<std::string>& inputs) {
@@ -66,23 +57,16 @@ void refuse_to_overwrite(const OutputOptions& options, const std::vector<std::st
     for (const std::string& name : names)
       refuse_input("--out", options.out, std::filesystem::path(options.out) / name, inputs);
   refuse_to_overwrite("--report", options.report, inputs);
-  std::error_code ignored;
-  for (const auto& chart : std::filesystem::directory_iterator(options.plots, ignored))
-    if (chart.path().extension() == ".svg" || chart.path().extension() == ".pdf")
-      refuse_input("--plots", options.plots, chart.path(), inputs);
 }
 
 ResultFiles::ResultFiles(const OutputOptions& options) : wide_(options.wide) {
   if (!options.report.empty() && !has_reports())
     throw UsageError(
         "--report: this program was built without charts; install libjs-dygraphs and node-d3, and build again");
-  if (!options.plots.empty()) need_gnuplot();
   refuse_standard_output("--out", options.out);
   refuse_standard_output("--report", options.report);
-  refuse_standard_output("--plots", options.plots);
   if (!options.out.empty()) directory_ = output_directory(options.out);
   if (!options.report.empty()) report_.emplace(options.report);
-  if (!options.plots.empty()) plots_ = output_directory(options.plots);
 }
 
 AtomicFile* ResultFiles::open(const std::string& name) {
@@ -95,7 +79,7 @@ void ResultFiles::write(const std::string& name, std::string_view text) {
   if (AtomicFile* const file = open(name)) file->write(text);
 }
 
-bool ResultFiles::report_wanted() const { return report_ || !plots_.empty() || (wanted() && has_reports()); }
+bool ResultFiles::report_wanted() const { return report_ || (wanted() && has_reports()); }
 
 void ResultFiles::write_report(const Report& report) {
   write(report_data_name, dumped(data_of(report)) + "\n");
@@ -103,27 +87,19 @@ void ResultFiles::write_report(const Report& report) {
     report_->write(html(report));
   else if (has_reports())
     write(report_name, html(report));
-  if (plots_.empty()) return;
-  for (const Picture& picture : pictures_of(report)) {
-    pictures_.emplace_back(picture.name + ".svg", svg_of(picture));
-    pictures_.emplace_back(picture.name + ".pdf", pdf_of(picture));
-  }
 }
 
 void ResultFiles::commit() {
-  if (files_.empty() && !report_ && plots_.empty()) return;
+  if (files_.empty() && !report_) return;
   for (AtomicFile& file : files_) file.store();
   if (report_) report_->store();
   for (AtomicFile& file : files_) file.commit();
   if (report_) report_->commit();
-  for (const auto& [name, document] : pictures_) write_file(plots_ / name, document);
   std::vector<std::string> written;
   if (!names_.empty())
     written.push_back(fmt::format("{}{}{} to {}", fmt::join(names_.begin(), names_.end() - 1, ", "),
                                   names_.size() > 1 ? " and " : "", names_.back(), directory_.native()));
   if (report_) written.push_back(report_->path().native());
-  if (!plots_.empty())
-    written.push_back(fmt::format("{} charts as SVG and PDF to {}", pictures_.size() / 2, plots_.native()));
   const std::string words = fmt::format("Wrote {}", fmt::join(written, ", and "));
   fmt::print("\n{}", wrapped(printable(words), wide_ ? any_width : terminal_width));
 }
@@ -167,7 +143,6 @@ void Result::fact(const Path& path, const std::vector<std::string>& words) { at(
 
 void Result::publish(ResultFiles& files) {
   std::fputs(text.c_str(), stdout);
-  print_charts(options_, on_terminal);
   for (const auto& [name, rows] : tables_) files.write(name, rows);
   if (files.report_wanted()) fact({"report_data"}, report_data_name);
   files.write("summary.json", dumped(*summary_, 2) + "\n");

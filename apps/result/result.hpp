@@ -11,26 +11,23 @@ namespace sigmax::apps {
 
 /// Where results go, and how they look; the same for every subcommand.
 struct OutputOptions {
-  std::string out;        ///< a directory for files, or empty
-  std::string report;     ///< the file of the report, or empty: that of the directory, if there is one
-  std::string plots;      ///< a directory for the report's pictures as SVG and PDF, or empty
-  bool quiet = false;     ///< no progress bar
-  bool wide = false;      ///< rows of tables are not broken
-  bool no_chart = false;  ///< on the terminal
-  std::string command;    ///< as typed, for the record
+  std::string out;      ///< a directory for files, or empty
+  std::string report;   ///< the file of the report, or empty: that of the directory, if there is one
+  bool quiet = false;   ///< no progress bar
+  bool wide = false;    ///< rows of tables are not broken
+  std::string command;  ///< as typed, for the record
 
   /// Of tables: that of the terminal, if it has more than 80 columns.
   std::size_t width() const;
 };
 
-/// --out, --quiet, --wide, --report and --plots, and the command for the record; --no-chart.
+/// --out, --quiet, --wide and --report, and the command for the record.
 void add_results(Subcommand app, OutputOptions& options, const std::string& command);
-void add_no_chart(Subcommand app, bool& no_chart);
 void add_quiet(Subcommand app, bool& quiet);
 void add_wide(Subcommand app, bool& wide);
 
-/// The result files of a run. Without --out nothing is written but the report and its pictures, if --report and --plots
-/// ask for them. Directories and report are begun first, so that a bad place is known before the work; the files appear
+/// The result files of a run. Without --out nothing is written but the report, if --report asks for it. Directory and
+/// report are begun first, so that a bad place is known before the work; the files appear
 /// together at the end.
 ///
 ///     ResultFiles files(options);
@@ -41,8 +38,7 @@ void add_wide(Subcommand app, bool& wide);
 ///     files.commit();
 class ResultFiles {
  public:
-  /// Throws UsageError if --report asks for what this program was built without, or --plots for gnuplot and it is not
-  /// there.
+  /// Throws UsageError if --report asks for what this program was built without.
   explicit ResultFiles(const OutputOptions& options);
 
   /// Whether there is a directory to write to.
@@ -54,11 +50,10 @@ class ResultFiles {
   void write(const std::string& name, std::string_view text);
 
   /// Whether there is to be a report: with a directory, unless this program was built without charts, or where --report
-  /// says, or as pictures.
+  /// says.
   bool report_wanted() const;
 
-  /// Writes the page, and beside the other files its data, `report_data_name`, which the summary should name; and the
-  /// pictures if they are wanted.
+  /// Writes the page, and beside the other files its data, `report_data_name`, which the summary should name.
   void write_report(const Report& report);
 
   /// Puts all files into their place and prints "Wrote a.csv and summary.json to DIR".
@@ -69,9 +64,7 @@ class ResultFiles {
   bool wide_;
   std::list<AtomicFile> files_;
   std::vector<std::string> names_;
-  std::optional<AtomicFile> report_;                           // where it is not in the directory
-  std::filesystem::path plots_;                                // empty: none
-  std::vector<std::pair<std::string, std::string>> pictures_;  // names and contents: more than are open at a time
+  std::optional<AtomicFile> report_;  // where it is not in the directory
 };
 
 /// Rows that are too many to keep: a CSV file that is filled as they come, or nothing where no files are wanted.
@@ -144,12 +137,11 @@ class Result {
     facts_at({}, all...);
   }
 
-  std::size_t words_width;             ///< that of the tables, unless another one is set
-  std::string text;                    ///< what was said and added so far, for the terminal
-  Report page;                         ///< with the command, and the tables that have a title
-  std::vector<LineChart> on_terminal;  ///< what ends the output on a terminal
+  std::size_t words_width;  ///< that of the tables, unless another one is set
+  std::string text;         ///< what was said and added so far, for the terminal
+  Report page;              ///< with the command, and the tables that have a title
 
-  /// Prints all, and writes tables, summary, page and pictures as far as they are wanted.
+  /// Prints all, and writes tables, summary and page as far as they are wanted.
   void publish(ResultFiles& files);
 
  private:
@@ -163,8 +155,7 @@ class Result {
 /// Throws UsageError if the file that an option names is an input, by whatever name; "-" is the standard input.
 void refuse_to_overwrite(const std::string& option, const std::string& file, const std::vector<std::string>& inputs);
 
-/// The same of all that ResultFiles writes: these files beside summary and report in the directory, the report, and the
-/// charts, whose names are known late, so that no SVG or PDF file among them may be an input.
+/// The same of all that ResultFiles writes: these files beside summary and report in the directory, and the report.
 void refuse_to_overwrite(const OutputOptions& options, const std::vector<std::string>& inputs,
                          std::vector<std::string> names = {});
 

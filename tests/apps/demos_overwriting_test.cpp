@@ -1,4 +1,3 @@
-#include "apps/has_gnuplot.hpp"
 #include "apps/temporary_directory.hpp"
 #include "support/program.hpp"
 
@@ -18,7 +17,6 @@ const std::vector<Command> commands = {
     {SIGMAX_RECOGNITION_DEMO, "predictions.csv", {"evaluate", "FILE", "--label", "fruit", "--out", "DIR"}},
     {SIGMAX_RECOGNITION_DEMO, "confusion.csv", {"evaluate", "LINK", "--label", "fruit", "--out", "DIR/../dir"}},
     {SIGMAX_RECOGNITION_DEMO, "f.csv", {"evaluate", "FILE", "--label", "fruit", "--report", "FILE"}},
-    {SIGMAX_RECOGNITION_DEMO, "f.svg", {"evaluate", "FILE", "--label", "fruit", "--plots", "DIR"}},
     {SIGMAX_RECOGNITION_DEMO, "f.csv", {"train", "FILE", "--label", "fruit", "--model", "FILE"}},
     {SIGMAX_RECOGNITION_DEMO, "f.csv", {"train", "FILE", "--label", "fruit", "--model", "LINK"}},
     {SIGMAX_RECOGNITION_DEMO, "predictions.csv", {"classify", "m.json", "FILE", "--out", "DIR"}},
@@ -31,7 +29,6 @@ const std::vector<Command> commands = {
     {SIGMAX_HIMM_DEMO, "rmse.csv", {"simulate", "--config", "FILE", "--out", "DIR"}},
     {SIGMAX_HIMM_DEMO, "estimates.csv", {"track", "FILE", "--out", "DIR"}},
     {SIGMAX_HIMM_DEMO, "f.csv", {"track", "FILE", "--report", "FILE"}},
-    {SIGMAX_HIMM_DEMO, "positions.pdf", {"track", "FILE", "--plots", "DIR"}},
     {SIGMAX_HIMM_DEMO, "cells.journal", {"merge", "DIR", "--out", "DIR/whole", "--report", "LINK"}},
 };
 
@@ -43,8 +40,6 @@ std::string text_for(const Command& command) {
 
 TEST(Overwriting, NoSubcommandWritesOverItsInput) {
   for (const Command& command : commands) {
-    const bool draws = std::count(command.arguments.begin(), command.arguments.end(), "--plots") > 0;
-    if (draws && !has_gnuplot()) continue;
     const TemporaryDirectory scratch;
     const auto directory = scratch.path() / "dir";
     std::filesystem::create_directory(directory);

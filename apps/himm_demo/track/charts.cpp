@@ -168,12 +168,6 @@ void TrackPage::add_to(Report& page, const TrackOutcome& outcome) const {
                     taken, kept_));
 }
 
-std::vector<LineChart> TrackPage::charts_of_the_first() const {
-  if (tracks_.empty()) return {};
-  const Track& track = longest_first().front()->second;
-  return {error_charts(track).front(), modes(track, 0)};
-}
-
 LineChart TrackPage::chart(const Track& track, std::string title, std::string y_label) const {
   LineChart made{.title = std::move(title),
                  .x_label = "time since the first row, s",

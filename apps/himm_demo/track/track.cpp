@@ -3,7 +3,6 @@
 #include <cstdio>
 
 #include "himm_demo/track/track.hpp"
-#include "result/braille.hpp"
 
 namespace sigmax::apps {
 
@@ -286,14 +285,12 @@ void track_and_report(TrackOptions options, TrackShares& shares) {
   }
   ResultFiles files(options.output);
   std::optional<TrackPage> tracks;
-  const bool charts = shares.alone() && charts_on_terminal(options.output);  // mpirun's output is no such place
-  if (files.report_wanted() || charts) tracks.emplace(filters, recording, options.radar.sigma || recording.has_truth());
+  if (files.report_wanted()) tracks.emplace(filters, recording, options.radar.sigma || recording.has_truth());
   const TrackOutcome outcome = run_track(options, recording, filters, {&files, tracks ? &*tracks : nullptr}, shares);
   if (tracks) tracks->finish(outcome);
   Result result(options.output);
   const auto warnings = Reporter(options, recording, filters, outcome, result).made();
   if (tracks) tracks->add_to(result.page, outcome);
-  if (charts) result.on_terminal = tracks->charts_of_the_first();
   result.publish(files);
   if (!warnings.empty()) std::fflush(stdout);  // they come last where both streams are one
   for (const auto& warning : warnings) complain("himm_demo: warning: " + warning);
@@ -313,7 +310,6 @@ void add_track(CLI::App& program, const std::string& command) {
   add_seed(app, options->seed);
   add_filter_options(app, options->filters);
   add_results(app, options->output, command);
-  add_no_chart(app, options->output.no_chart);
   app.run([options] {
     TrackShares shares;
     shares.run([&] { track_and_report(*options, shares); });
