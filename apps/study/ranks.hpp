@@ -9,8 +9,8 @@
 
 namespace sigmax::apps {
 
-/// The same program started many times by mpirun. Either the first rank hands out cells of work and takes what they
-/// give, and the others do the work, one cell at a time; or the others know what is theirs, and tell the first.
+/// The same program started many times by mpirun. The first rank hands out cells of work and takes what they give; the
+/// others do the work, one cell at a time.
 class Ranks {
  public:
   /// Joins the other ranks; null where the program runs alone. Throws UsageError, with what to do instead, if mpirun
@@ -19,23 +19,14 @@ class Ranks {
 
   virtual ~Ranks() = default;
 
-  /// Which one this is, from 0 on, and of how many.
-  virtual int rank() const = 0;
-  virtual int size() const = 0;
-
-  bool first() const { return rank() == 0; }
+  /// Whether this is the first one.
+  virtual bool first() const = 0;
 
   /// Gives each cell to the next rank that is free; take(rows) gets what has come in meanwhile.
   virtual void hand_out(std::span<const std::size_t> cells, const std::function<void(CellRows)>& take) = 0;
 
   /// Does what the first rank hands out, until nothing is left.
   virtual void serve(const std::function<std::vector<double>(std::size_t)>& work) = 0;
-
-  /// Sends bytes to the first rank, without waiting unless 1000 such messages are under way.
-  virtual void tell(std::string bytes) = 0;
-
-  /// In the first rank: the next bytes that another one told.
-  virtual std::string hear(int rank) = 0;
 
   /// Prints what happened and ends all ranks: a single one cannot leave.
   [[noreturn]] virtual void abort(const std::exception& error) = 0;

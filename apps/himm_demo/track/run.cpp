@@ -18,12 +18,10 @@ struct Segment {
   Eigen::Vector3d shift = Eigen::Vector3d::Zero();
 };
 
-/// One target of a recording, followed by every filter: here, or in another rank.
+/// One target of a recording, followed by every filter.
 struct Target {
-  int rank;  // that follows it
   RandomStream random;
-  std::vector<AnyTarget> filters;  // none if that is another rank
-  std::vector<Tally> tallies;
+  std::vector<AnyTarget> filters;
   std::optional<LocalFrame> anchor{};            // where positions are counted from in the output
   std::vector<std::vector<Segment>> segments{};  // of each filter, of a geodetic target
   std::deque<Row> rows{};                        // whose tags are their numbers
@@ -141,8 +139,8 @@ class Estimates {
 class TrackRun {
  public:
   TrackRun(const TrackOptions& options, RecordingReader& recording, const std::vector<FilterSettings>& filters,
-           TrackSinks sinks, TrackShares& shares)
-      : options_(options), recording_(recording), filters_(filters), sinks_(sinks), shares_(shares) {
+           TrackSinks sinks)
+      : options_(options), recording_(recording), filters_(filters), sinks_(sinks) {
     outcome_.filters.resize(filters.size());
     for (std::size_t f = 0; f < filters.size(); ++f) {
       TargetChoice choice = choice_of(filters[f], axes_);
@@ -155,7 +153,7 @@ class TrackRun {
 
   TrackOutcome run() {
     const auto total = recording_.csv().bytes_total();
-    Progress progress(file(), total.value_or(1), options_.output.quiet || !total || !shares_.first());
+    Progress progress(file(), total.value_or(1), options_.output.quiet || !total);
     for (Row row; recording_.next(row);) {
       take(row);
       progress.advance(recording_.csv().bytes_read() - progress.done());
@@ -163,8 +161,7 @@ class TrackRun {
     progress.finish();
     if (options_.predict_to) predict();
     for (auto& [name, target] : targets_) end(name, target);
-    shares_.finish();
-    if (shares_.first() && outcome_.never_started.size() == targets_.size()) refuse_nothing();
+    if (outcome_.never_started.size() == targets_.size()) refuse_nothing();
     outcome_.places = places_.notes();
     outcome_.some_unplaced = places_.some_unplaced();
     if (file_anchor_ && (fixed_ || recording_.origin() || !recording_.has_tracks())) outcome_.origin = file_anchor_;
@@ -178,7 +175,6 @@ class TrackRun {
   /// day of the target's last row, or the next.
   void predict() {
     for (auto& [name, target] : targets_) {
-      if (!shares_.concerns(target.rank)) continue;
       const bool of_day = options_.predict_to_time_of_day && recording_.times_of_day();
       Row row{.line = target.rows.back().line, .track = name, .predicted = true};
       row.plot.time = of_day ? time_of_day_after(target.tally.last_time, *options_.predict_to) : *options_.predict_to;
@@ -202,19 +198,14 @@ class TrackRun {
     count(row);
     auto found = targets_.find(row.track);
     if (found == targets_.end()) {
-      const int rank = shares_.rank_of(targets_.size());
-      found = targets_
-                  .emplace(row.track, Target{rank, stream_of(options_.seed, row.track),
-                                             shares_.follows(rank) ? prototypes_ : std::vector<AnyTarget>{},
-                                             std::vector<Tally>(filters_.size())})
-                  .first;
+      found = targets_.emplace(row.track, Target{stream_of(options_.seed, row.track), prototypes_}).first;
       found->second.tally.nis.resize(filters_.size());
+      found->second.refused.resize(filters_.size());
     }
     Target& target = found->second;
     if (!options_.radar.sigma) places_.place(row);
     if (!target.anchor && (places_.frame() || (recording_.geodetic() && axes_seen(row.plot, axes_) > 0)))
       begin_frames(target, places_.frame() ? places_.frame()->origin() : place_of(row.plot, axes_, 0.0));
-    if (!shares_.concerns(target.rank)) return;
     if (options_.radar.sigma) see_by_radar(row, where(row, target), axes_, options_.radar, target.random, file());
     measured(row, target);
     step(target, std::move(row));
@@ -340,58 +331,73 @@ class TrackRun {
     if (row.measured()) ++tally.measurements;
     target.rows.push_back(std::move(row));
     if (!keeps_all_ && target.rows.size() > 2) target.rows.pop_front();  // a start may wait for the row after it
-    auto news = shares_.by(target.rank, [&] { return followed(target, again); });
-    if (!news) return;
-    std::optional<double> least;                       // of the filters' NIS
-    std::vector<std::pair<std::size_t, double>> lost;  // who does not expect the row, by its NIS
-    for (Said& said : news->said) {
-      const auto nis = said.point.tag + 1 == tally.rows ? said.point.nis : std::nullopt;
-      if (nis && (!least || *nis < *least)) least = nis;
-      if (nis && *nis > Outliers::limit) lost.emplace_back(said.filter, *nis);
-      tell(target, said);
-    }
-    for (const auto& [f, nis] : lost) {
-      if (*least > Outliers::limit) break;
-      FilterOutcome& filter = outcome_.filters[f];
-      filter.lost.add(target.rows.back().line);
-      if (nis > Outliers::by_far) filter.lost_by_far.add(target.rows.back().line);
-    }
-    stepped(target, news->tallies);
-    if (least && *least > Outliers::limit) {
-      Outliers& outliers = outcome_.outliers;
-      ++outliers.count;
-      if (*least > outliers.worst_nis) {
-        outliers.worst_nis = *least;
-        outliers.worst_line = target.rows.back().line;
-      }
-    }
-    target.tallies = std::move(news->tallies);
+    follow(target, again);
   }
 
-  /// What the filters make of the last row.
-  News followed(Target& target, bool again) {
-    News news;
+  /// Leads the last row through every filter.
+  void follow(Target& target, bool again) {
     const Row& row = target.rows.back();
+    std::vector<std::optional<double>> nis(filters_.size());
+    std::size_t refusing = 0;  // filters whose gate turns the measurement away
     for (std::size_t f = 0; f < filters_.size(); ++f) {
       AnyTarget& filter = target.filters[f];
-      try {
-        if (!again || filter.running() || (crosses_ && filters_[f].start != StartRule::given)) {
-          const bool moves = target.anchor && !fixed_ && !has_home(filters_[f]);
-          if (moves && row.predicted && filter.running()) move_frame(target, f, filter.output(), true);
-          const AnyPlot plot = plot_for(target, f, row);
-          TargetPoint last;
-          filter.follow({&plot, 1}, [&](const TargetPoint& point) {
-            if (!filters_[f].smooth && !point.is_start) news.said.push_back(said(target, f, point));
-            last = point;
-          });
-          if (moves && !row.predicted && filter.running()) move_frame(target, f, last);
-        }
-      } catch (const std::exception& error) {
-        refuse_failure(f, row, error);
+      const std::size_t rejected = filter.rejected(), starts = filter.starts();
+      if (!again || filter.running() || (crosses_ && filters_[f].start != StartRule::given))
+        nis[f] = follow(target, f, row);
+      if (filter.rejected() > rejected) {
+        ++refusing;
+        target.refused[f] = target.tally.rows;
+        if (sinks_.page) sinks_.page->rejected(row, f);
       }
-      news.tallies.push_back({filter.rejected(), filter.starts()});
+      if (starts == 0 || filter.starts() == starts) continue;
+      constexpr std::size_t rows_of_a_start = 3;
+      if (target.refused[f] > 0 && target.tally.rows <= target.refused[f] + rows_of_a_start)
+        outcome_.filters[f].given_up.add(row.line);
+      if (sinks_.page) sinks_.page->restarted(row, f);
     }
-    return news;
+    if (refusing == filters_.size()) outcome_.refused_by_all.add(row.line);
+    judge(row, nis);
+  }
+
+  /// Leads a row through a filter. Returns the NIS of its step.
+  std::optional<double> follow(Target& target, std::size_t f, const Row& row) {
+    AnyTarget& filter = target.filters[f];
+    std::optional<double> nis;
+    try {
+      const bool moves = target.anchor && !fixed_ && !has_home(filters_[f]);
+      if (moves && row.predicted && filter.running()) move_frame(target, f, filter.output(), true);
+      const AnyPlot plot = plot_for(target, f, row);
+      TargetPoint last;
+      filter.follow({&plot, 1}, [&](const TargetPoint& point) {
+        if (point.tag == row.plot.tag && !point.is_start) nis = point.nis;
+        if (!filters_[f].smooth && !point.is_start) tell(target, f, point, frame_of(target, f, point));
+        last = point;
+      });
+      if (moves && !row.predicted && filter.running()) move_frame(target, f, last);
+    } catch (const std::logic_error& error) {
+      refuse_failure(f, row, error);
+    }
+    return nis;
+  }
+
+  void judge(const Row& row, const std::vector<std::optional<double>>& nis) {
+    std::optional<double> least;
+    for (const auto& one : nis)
+      if (one && (!least || *one < *least)) least = one;
+    if (!least) return;
+    if (*least > Outliers::limit) {
+      Outliers& outliers = outcome_.outliers;
+      ++outliers.count;
+      if (*least <= outliers.worst_nis) return;
+      outliers.worst_nis = *least;
+      outliers.worst_line = row.line;
+      return;
+    }
+    for (std::size_t f = 0; f < filters_.size(); ++f) {
+      if (!nis[f] || *nis[f] <= Outliers::limit) continue;
+      outcome_.filters[f].lost.add(row.line);
+      if (*nis[f] > Outliers::by_far) outcome_.filters[f].lost_by_far.add(row.line);
+    }
   }
 
   /// What a row measures, in the frame of the filter and with the covariances that it believes.
@@ -447,24 +453,23 @@ class TrackRun {
     if (!filters_[f].smooth) segments.erase(segments.begin());
   }
 
-  static Said said(const Target& target, std::size_t f, const TargetPoint& point) {
-    Said said{f, point, std::nullopt};
-    if (target.anchor) said.frame = target.segment(f, point.tag)->frame.origin();
-    return said;
+  /// In which a point of a filter is told, if the target is geodetic.
+  static std::optional<Geodetic> frame_of(const Target& target, std::size_t f, const TargetPoint& point) {
+    if (!target.anchor) return std::nullopt;
+    return target.segment(f, point.tag)->frame.origin();
   }
 
   /// A smoothed point, which is told in the last frame of its start, in that of its row.
-  Said smoothed(const Target& target, std::size_t f, const TargetPoint& point) const {
-    Said said = TrackRun::said(target, f, point);
-    if (!target.anchor) return said;
-    Eigen::Map<Eigen::VectorXd> position(said.point.mean.data(), axes_);
+  TargetPoint smoothed(const Target& target, std::size_t f, TargetPoint point) const {
+    if (!target.anchor) return point;
+    Eigen::Map<Eigen::VectorXd> position(point.mean.data(), axes_);
     const auto own = target.segment(f, point.tag);
     for (auto later = std::prev(target.segments[f].end()); later != own; --later) {
       if (later->starts != own->starts) continue;
       position -= later->shift.head(axes_);
-      turn_point(later->turn.inverse(), said.point, axes_);
+      turn_point(later->turn.inverse(), point, axes_);
     }
-    return said;
+    return point;
   }
 
   /// By quantity, and of a position with a velocity along and across the way.
@@ -478,30 +483,29 @@ class TrackRun {
   }
 
   /// Takes down what a filter says of a row.
-  void tell(Target& target, Said& said) {
+  void tell(Target& target, std::size_t f, TargetPoint point, const std::optional<Geodetic>& frame) {
     ++target.tally.estimates;
-    TargetPoint& point = said.point;
     const Row& row = target.row(point.tag);
-    const FilterSettings& filter = filters_[said.filter];
+    const FilterSettings& filter = filters_[f];
     const std::size_t n = point.mean.size();
     const AnyPlot plot = believed(filter, row.sensor, row.plot, axes_);
     if (!row.predicted) {
-      lean(outcome_.filters[said.filter].leans[row.sensor], plot, point.normalized_innovation);
+      lean(outcome_.filters[f].leans[row.sensor], plot, point.normalized_innovation);
       if (!point.normalized_innovation.empty() && axes_seen(row.plot, axes_) == axes_) {
-        std::vector<double>& before = target.innovations[{said.filter, row.sensor}];
+        std::vector<double>& before = target.innovations[{f, row.sensor}];
         const std::span own = std::span(point.normalized_innovation).first(static_cast<std::size_t>(axes_));
-        FilterOutcome& its = outcome_.filters[said.filter];
+        FilterOutcome& its = outcome_.filters[f];
         (is_moving(row.plot, axes_) ? its.with_velocity : its.without_velocity).add(own, before);
         before.assign(own.begin(), own.end());
       }
       if (point.nis) {
         const bool again = point.tag > target.first_tag() && target.row(point.tag - 1).plot.time == row.plot.time;
-        FilterOutcome& its = outcome_.filters[said.filter];
+        FilterOutcome& its = outcome_.filters[f];
         (again ? its.nis_again : its.nis_first).add(*point.nis / static_cast<double>(plot.size));
-        target.tally.nis[said.filter].sum += *point.nis;
-        target.tally.nis[said.filter].quantities += static_cast<std::size_t>(plot.size);
+        target.tally.nis[f].sum += *point.nis;
+        target.tally.nis[f].quantities += static_cast<std::size_t>(plot.size);
       }
-      add_by_part(outcome_.filters[said.filter].sums, row.roll_deg, [&](Sums& sums) {
+      add_by_part(outcome_.filters[f].sums, row.roll_deg, [&](Sums& sums) {
         for (std::size_t axis = 0; axis < static_cast<std::size_t>(axes_); ++axis) {
           sums.sigma[axis].add_square(point.covariance[axis * (n + 1)]);
           if (row.truth) sums.error[axis].add(point.mean[axis] - (*row.truth)[axis]);
@@ -519,11 +523,10 @@ class TrackRun {
     }
     if (!estimates_ && !sinks_.page) return;
     std::optional<Geodetic> place;
-    if (said.frame)
-      place = tell_from(*target.anchor, LocalFrame(*said.frame, axes_), row.predicted && !has_home(filter), point);
-    if (said.filter == 0) target.tally.goes_to(point.mean, axes_);
+    if (frame) place = tell_from(*target.anchor, LocalFrame(*frame, axes_), row.predicted && !has_home(filter), point);
+    if (f == 0) target.tally.goes_to(point.mean, axes_);
     estimates_.write({row.track, filter, point, place});
-    if (sinks_.page) sinks_.page->estimated(row, said.filter, point, plot.size);
+    if (sinks_.page) sinks_.page->estimated(row, f, point, plot.size);
   }
 
   /// Tells a point in `frame` from `anchor`: its position about that, and all else along east, north and up at the
@@ -542,54 +545,26 @@ class TrackRun {
     return place;
   }
 
-  /// What the step with a row changed.
-  void stepped(Target& target, const std::vector<Tally>& after) {
-    const Row& row = target.rows.back();
-    const std::vector<Tally>& before = target.tallies;
-    target.refused.resize(filters_.size());
-    std::size_t refusing = 0;  // filters whose gate turns the measurement away
-    for (std::size_t f = 0; f < filters_.size(); ++f) {
-      const bool rejected = after[f].rejected > before[f].rejected;
-      if (rejected) ++refusing;
-      if (sinks_.page && rejected) sinks_.page->rejected(row, f);
-      const bool restarted = before[f].starts > 0 && after[f].starts > before[f].starts;
-      if (rejected) target.refused[f] = target.tally.rows;
-      constexpr std::size_t rows_of_a_start = 3;
-      const bool given_up =
-          restarted && target.refused[f] > 0 && target.tally.rows <= target.refused[f] + rows_of_a_start;
-      if (sinks_.page && restarted) sinks_.page->restarted(row, f);
-      if (given_up) outcome_.filters[f].given_up.add(row.line);
-    }
-    if (refusing == filters_.size()) outcome_.refused_by_all.add(row.line);
-  }
-
   /// The end of a target whose rows have all been read: the steps as smoothing sees them, and when the modes changed.
   void end(const std::string& name, Target& target) {
-    auto news = shares_.by(target.rank, [&] {
-      News last;
-      for (std::size_t f = 0; f < filters_.size(); ++f) {
-        try {
-          if (filters_[f].smooth)
-            target.filters[f].smoothed([&](const TargetPoint& point) {
-              if (!point.is_start) last.said.push_back(smoothed(target, f, point));
-            });
-        } catch (const std::exception& error) {
-          refuse_failure(f, target.rows.back(), error);
-        }
-        last.histories.push_back(filters_[f].explain ? target.filters[f].explained() : std::vector<ModeStay>{});
+    for (std::size_t f = 0; f < filters_.size(); ++f) {
+      try {
+        if (filters_[f].smooth)
+          target.filters[f].smoothed([&](const TargetPoint& point) {
+            if (!point.is_start) tell(target, f, smoothed(target, f, point), frame_of(target, f, point));
+          });
+        if (filters_[f].explain) outcome_.filters[f].histories[name] = target.filters[f].explained();
+      } catch (const std::logic_error& error) {
+        refuse_failure(f, target.rows.back(), error);
       }
-      return last;
-    });
-    if (!news) return;
-    for (Said& said : news->said) tell(target, said);
+    }
     bool started = target.tally.estimates > 0;  // what only starts tells nothing
     for (std::size_t f = 0; f < filters_.size(); ++f) {
       FilterOutcome& own = outcome_.filters[f];
-      const auto& [rejected, starts] = target.tallies[f];
+      const std::size_t rejected = target.filters[f].rejected(), starts = target.filters[f].starts();
       own.rejected += rejected;
       own.restarts += starts > 0 ? starts - 1 : 0;
       target.tally.nis[f].rejected = rejected;
-      if (filters_[f].explain) own.histories[name] = std::move(news->histories[f]);
       started &= starts > 0;
       constexpr std::size_t fewest = 5;
       if (rejected < fewest || 5 * rejected <= target.tally.measurements) continue;
@@ -649,7 +624,6 @@ class TrackRun {
   int axes_ = recording_.axes();
   const std::vector<FilterSettings>& filters_;
   TrackSinks sinks_;
-  TrackShares& shares_;
   Estimates estimates_{options_, filters_, recording_, sinks_.files};
   TrackOutcome outcome_;
   std::vector<AnyTarget> prototypes_;  // each filter before its first row
@@ -665,8 +639,8 @@ class TrackRun {
 }  // namespace
 
 TrackOutcome run_track(const TrackOptions& options, RecordingReader& recording,
-                       const std::vector<FilterSettings>& filters, TrackSinks sinks, TrackShares& shares) {
-  return TrackRun(options, recording, filters, sinks, shares).run();
+                       const std::vector<FilterSettings>& filters, TrackSinks sinks) {
+  return TrackRun(options, recording, filters, sinks).run();
 }
 
 void TrackTally::goes_to(const std::vector<double>& mean, int axes) {

@@ -248,24 +248,13 @@ class Reporter {
   bool truth_known_ = options_.radar.sigma || recording_.has_truth();
 };
 
-/// Each rank reads the recording for itself.
-void refuse_what_ranks_cannot_share(const TrackOptions& options) {
-  if (options.recording.track_id.empty())
-    throw UsageError({.what = "under mpirun each rank follows its share of the tracks, but all rows are one",
-                      .remedy = "name the column that tells tracks apart by --track-id, or run it without mpirun"});
-  if (options.recording.file == "-")
-    throw UsageError(
-        "under mpirun every rank reads the recording, but standard input comes only once; give the name of a file");
-}
-
-void track_and_report(TrackOptions options, TrackShares& shares) {
+void track_and_report(TrackOptions options) {
   RecordingOptions what = options.recording;
   auto filters = filters_for(what, options.filters, options.radar.sigma);
   if (options.filters.print_config) {
-    if (shares.first()) fmt::print("{}", as_toml(filters));
+    fmt::print("{}", as_toml(filters));
     return;
   }
-  if (!shares.alone()) refuse_what_ranks_cannot_share(options);
   what.simulated = options.radar.sigma.has_value();
   RecordingReader recording(what);
   if (options.radar.at && !options.radar.sigma && !recording.polar() && !recording.bearings())
@@ -279,14 +268,10 @@ void track_and_report(TrackOptions options, TrackShares& shares) {
   }
   if (recording.moves_alone()) start_at_zero(filters);
   refuse_to_overwrite(options.output, {options.recording.file, options.filters.config}, {"estimates.csv"});
-  if (!shares.first()) {
-    run_track(options, recording, filters, {}, shares);
-    return;
-  }
   ResultFiles files(options.output);
   std::optional<TrackPage> tracks;
   if (files.report_wanted()) tracks.emplace(filters, recording, options.radar.sigma || recording.has_truth());
-  const TrackOutcome outcome = run_track(options, recording, filters, {&files, tracks ? &*tracks : nullptr}, shares);
+  const TrackOutcome outcome = run_track(options, recording, filters, {&files, tracks ? &*tracks : nullptr});
   if (tracks) tracks->finish(outcome);
   Result result(options.output);
   const auto warnings = Reporter(options, recording, filters, outcome, result).made();
@@ -310,10 +295,7 @@ void add_track(CLI::App& program, const std::string& command) {
   add_seed(app, options->seed);
   add_filter_options(app, options->filters);
   add_results(app, options->output, command);
-  app.run([options] {
-    TrackShares shares;
-    shares.run([&] { track_and_report(*options, shares); });
-  });
+  app.run([options] { track_and_report(*options); });
 }
 
 }  // namespace sigmax::apps
