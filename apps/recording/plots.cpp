@@ -103,10 +103,15 @@ void add_recording(Subcommand app, RecordingOptions& recording, RadarOptions& ra
   app.triple("--origin", recording.origin, "Where positions are counted from [each track's first row]")
       .type("LAT,LON,ALT");
   app.option(
-         "--azimuth-from", [&](const std::string& from) { recording.azimuth_from_north = from == "north"; },
-         "Whether azimuths run counter-clockwise from east or clockwise from north [east]")
-      .one_of({"east", "north"})
-      .text("east|north");
+         "--azimuth-from",
+         [&](const std::string& from) {
+           recording.azimuth_from = from == "north"   ? AzimuthFrom::north
+                                    : from == "ahead" ? AzimuthFrom::ahead
+                                                      : AzimuthFrom::east;
+         },
+         "Whether azimuths run counter-clockwise from east (x), or clockwise from north (y) or from ahead (x) [east]")
+      .one_of({"east", "north", "ahead"})
+      .text("east|north|ahead");
   app.triple("--radar", radar.sigma,
              "Take the recording as the truth and measure it by a simulated radar with these standard deviations")
       .type("RANGE_M,AZIMUTH_DEG,ELEVATION_DEG");

@@ -45,27 +45,11 @@ bool is_accuracy(Role role) {
 
 }  // namespace
 
-void Marks::see(std::size_t column, std::string_view cell, std::string_view letters, bool counts, std::size_t line) {
-  constexpr std::string_view words[] = {"south", "north", "west", "east"};
-  const std::string text = lower_case(trimmed(cell));
-  if (text.empty()) return;
-  const auto letter = letters.find(static_cast<char>(text.front() - 'a' + 'A'));
-  auto& [found, are_all] = columns_.try_emplace(column, Counted{}, true).first->second;
-  are_all &= letter != letters.npos && (text.size() == 1 || std::ranges::find(words, text) != std::end(words));
-  if (letter == 0 && counts) found.add(line);
-}
-
-Counted Marks::found() const {
-  for (const auto& [column, marks] : columns_)
-    if (marks.second && marks.first.rows > 0) return marks.first;
-  return {};
-}
-
 RecordingReader::RecordingReader(const RecordingOptions& options) : options_(options) {
   options_.velocity &= !options.simulated;
   for (const auto& [name, header] : mapping_) csv_.column(header);  // each must be there
   find_columns();
-  if (options.azimuth_from_north && !has(Role::polar, 1))
+  if (options.azimuth_from && !has(Role::polar, 1))
     throw UsageError("--azimuth-from is for radar input and bearings, but " + file() + " has no azimuth that counts");
   if (!options.track_id.empty()) track_ = csv_.column(options.track_id);
   for (const auto& select : options.select) {
@@ -129,9 +113,11 @@ void RecordingReader::find_columns() {
   drop(Role::polar, 3);
   const auto& azimuth = column(Role::polar, 1);
   if (azimuth && azimuth->unit->from_north) {
-    if (options_.azimuth_from_north == false)
-      throw UsageError("--azimuth-from east contradicts the column {}", header_of(place_of(Role::polar) + 1));
-    from_north_ = true;
+    if (options_.azimuth_from.value_or(AzimuthFrom::north) != AzimuthFrom::north)
+      throw UsageError("--azimuth-from {} contradicts the column {}",
+                       options_.azimuth_from == AzimuthFrom::east ? "east" : "ahead",
+                       header_of(place_of(Role::polar) + 1));
+    azimuth_from_ = AzimuthFrom::north;
   }
   const auto are_there = [&](Role role) { return has(role) && has(role, 1); };
   if (!are_there(Role::place)) drop(Role::place);
@@ -174,15 +160,6 @@ void RecordingReader::find_columns() {
   }
   for (const Role role : {Role::sensor_position, Role::sensor_place})
     drop(role, (polar() || bearings()) && !options_.simulated && are_there(role) ? axes : 0);
-  for (std::size_t q = 0; q < quantities.size(); ++q) {
-    if (!columns_[q] || is_mapped(header_of(q))) continue;
-    for_each_header(quantities[q], [&](const std::string& header, const Unit& unit) {
-      const bool is_angle = quantities[q].units.front().suffix == "deg";
-      const bool is_mirrored = q == place_of(Role::polar) + 1 && unit.from_north != from_north_;
-      if (const auto index = find(header); index && *index != columns_[q]->index)
-        rivals_.push_back({q, {*index, &unit, not_available(header)}, is_angle, is_mirrored});
-    });
-  }
 }
 
 void RecordingReader::refuse_other_kinds(bool cartesian, bool time_known, bool has_velocity) const {
@@ -243,19 +220,7 @@ bool RecordingReader::next(Row& row) {
   row.sensor_at = counts(Role::sensor_position) ? position(Role::sensor_position) : std::nullopt;
   row.sensor_place = counts(Role::sensor_place) ? std::optional(place(Role::sensor_place)) : std::nullopt;
   if (!plot) senseless_.add(row.line);
-  row.twice = axes_ > 1 && said(where()) == said(where(), 1) ? said(where()) : std::nullopt;
-  for (std::size_t i = 0; i < 2 && geodetic(); ++i) {  // whose hemisphere may be in one of the next two columns
-    const auto first = columns_[place_of(Role::place) + i]->index + 1;
-    for (std::size_t at = first; at < std::min(first + 2, row_.size()); ++at)
-      if (may_mark(at, {"lat", "lon", "ns", "ew", "n/s", "e/w", "hemi"}))
-        abroad_[i].see(at, row_[at], i == 0 ? "SN" : "WE", said(Role::place, i) > 0.0, row_.line());
-  }
-  if (says(Role::polar)) {
-    const auto first = columns_[place_of(Role::polar) + 1]->index + 1;
-    if (first < row_.size() && may_mark(first, {"ref", "rel", "true", "bearing", "t/r", "r/t", "from"}))
-      relative_.see(first, row_[first], "RTM", true, row_.line());
-  }
-  if (rows_++ == 0) unread_date_ = find_unread_date();
+  ++rows_;
   row.plot = plot.value_or(AnyPlot{});
   row.plot.time = time;
   return true;
@@ -297,14 +262,6 @@ bool RecordingReader::take_time(Row& row) {
                          std::string("correct the cell or drop the row; if all are written otherwise, say how, as "
                                      "--time-format '%d/%m/%Y %H:%M:%S'"));
   times_are_numbers_ = options_.time_format.empty() && parse_number(row_[time_]);
-  if (options_.time_format.empty() && !times_are_numbers_ && !of_day) {
-    constexpr std::size_t behind_date = 11;
-    const auto zone = std::string_view(cell).substr(std::min(cell.find_first_of("+-Zz", behind_date), cell.size()));
-    if (zone_ && *zone_ != zone && other_zone_.line == 0)
-      other_zone_ = {row_.line(), *found - zoned_, zone_->empty() || zone.empty()};
-    zone_ = zone;
-    zoned_ = *found;
-  }
   const double time = of_day ? on_its_day(row, *found) : *found;
   row.plot.time = time;
   const bool refused = refused_time(row, time);
@@ -330,10 +287,6 @@ bool RecordingReader::take_time(Row& row) {
                           "--on-bad-time skip",
                           track_ ? "" : "; or where there are several targets, tell them apart by --track-id COLUMN"));
   ++skipped_;
-  if (time == before)
-    ++at_one_time_;
-  else if (++last.left > left_behind_.rows)
-    left_behind_ = {last.left, last.line};
   return false;
 }
 
@@ -357,7 +310,7 @@ bool RecordingReader::refused_time(const Row& row, double time) {
   const auto [found, first] = last_.try_emplace(row.track);
   Last& last = found->second;
   if (first || time > last.time) {
-    last = {time, {row.sensor}, row.line};
+    last = {time, {row.sensor}};
     return false;
   }
   const bool spoke = std::ranges::find(last.sensors, row.sensor) != last.sensors.end();
@@ -387,9 +340,7 @@ std::optional<double> RecordingReader::number_in(std::size_t column) {
 /// What the row says of each quantity.
 void RecordingReader::take_numbers() {
   for (std::size_t q = 0; q < quantities.size(); ++q)
-    if (said_[q] = columns_[q] ? number_in(columns_[q]->index) : std::nullopt;
-        said_[q] && said_[q] != columns_[q]->not_available)
-      nines_[q].see(trimmed(row_[columns_[q]->index]), *said_[q]);
+    said_[q] = columns_[q] ? number_in(columns_[q]->index) : std::nullopt;
   // A longitude of 181° may be 179° west; it is none beside a latitude that is none, and so is an altitude.
   const auto says_none = [&](std::size_t q) { return said_[q] && said_[q] == columns_[q]->not_available; };
   const bool no_place = says_none(place_of(Role::place)) && says_none(place_of(Role::place) + 1);
@@ -404,64 +355,23 @@ void RecordingReader::take_numbers() {
     if (said_[q] && is_accuracy(role) && role != Role::covariance && !(*said_[q] > 0.0))
       throw row_.error(columns_[q]->index, "a positive standard deviation", "leave the cell empty where it is unknown");
   }
-  for (Rival& rival : rivals_) rival.see(said_[rival.quantity], parse_number(row_[rival.column.index]));
 }
 
-void RecordingReader::Rival::see(const std::optional<double>& said, std::optional<double> other) {
-  if (!said || !other || other == column.not_available) return;
-  *other *= column.unit->value;
-  if (is_mirrored) *other = 90.0 - *other;
-  ++rows;
-  apart += std::abs(is_angle ? std::remainder(*said - *other, 360.0) : *said - *other);
-  size += std::abs(*said) + std::abs(*other);
-}
-
-/// Whether a column is called as one of letters that say more of a number, or by a letter or two.
-bool RecordingReader::may_mark(std::size_t column, std::initializer_list<std::string_view> words) const {
-  const std::string name = lower_case(csv_.names()[column]);
-  const bool is_other = (sensor_ && column == *sensor_) || (track_ && column == *track_);
-  return !is_other &&
-         (name.size() < 3 || std::ranges::any_of(words, [&](auto word) { return name.find(word) != name.npos; }));
-}
-
-/// A column that seems to tell the date, by its name and by this row, and is not read; or nothing.
-std::string RecordingReader::find_unread_date() const {
-  constexpr std::string_view words[] = {"date", "datum", "day", "fecha"};
-  const auto& names = csv_.names();
-  for (std::size_t i = 0; i < names.size(); ++i)
-    if (!date_ && i != time_ && std::ranges::find(words, lower_case(names[i])) != std::end(words) &&
-        !parse_number(row_[i]) && parse_timestamp(fmt::format("{} 00:00:00", trimmed(row_[i]))))
-      return names[i];
-  return "";
-}
-
-std::vector<std::string> RecordingReader::rivals() const {
-  constexpr double most_degrees = 20.0, most_metres = 200.0, most_of_both = 0.2;
-  std::vector<std::string> sentences;
-  for (const auto& [q, column, is_angle, is_mirrored, rows, apart, size] : rivals_) {
-    const double mean = apart / static_cast<double>(rows);
-    const bool is_height = quantities[q].role == Role::place;  // of which there are several zeros
-    if (rows == 0 ||
-        !(is_angle ? mean > most_degrees : apart > most_of_both * size && (!is_height || mean > most_metres)))
-      continue;
-    sentences.push_back(
-        fmt::format("columns {} and {} differ by {:.3g}{} on the average; {} was taken: see which is right, and leave "
-                    "out the other",
-                    header_of(q), csv_.names()[column.index], mean,
-                    is_angle ? "°" : fmt::format(" {}", quantities[q].units.front().words), header_of(q)));
-  }
-  return sentences;
+std::optional<double> RecordingReader::written(std::size_t quantity) const {
+  const auto number = parse_number(row_[(columns_[quantity] ? columns_ : doubted_)[quantity]->index]);
+  const bool is_none =
+      std::ranges::any_of(options_.missing, [&](const auto& word) { return parse_number(word) == number; });
+  return is_none ? std::nullopt : number;
 }
 
 /// What columns tell of the velocity that do not count.
 Position RecordingReader::rates() const {
   const auto told = [&](Role role, std::size_t i) {
     const auto& column = doubted_[place_of(role) + i];
-    const auto number = column ? parse_number(row_[column->index]) : std::nullopt;
-    const bool is_none =
-        !number || number == column->not_available || std::abs(*number) >= beyond_sense ||
-        std::ranges::any_of(options_.missing, [&](const auto& word) { return parse_number(word) == number; });
-    return is_none ? nan : *number * column->unit->value;
+    const auto number = column ? written(place_of(role) + i) : std::nullopt;
+    return !number || number == column->not_available || std::abs(*number) >= beyond_sense
+               ? nan
+               : *number * column->unit->value;
   };
   Position rates = {told(Role::velocity, 0), told(Role::velocity, 1), told(Role::velocity, 2)};
   const double speed = told(Role::course, 0), course = told(Role::course, 1) * degree;
@@ -540,7 +450,10 @@ AnyPlot RecordingReader::radar_plot() const {
   const double azimuth = *said(Role::polar, 1);
   if (!(std::abs(azimuth) <= 360.0))
     throw error(Role::polar, 1, "degrees from −360 to 360", "correct the cell; if all are gon or mils, write degrees");
-  const double from_east = (from_north_ ? 90.0 - azimuth : azimuth) * degree;
+  const double from_east = (azimuth_from_ == AzimuthFrom::north   ? 90.0 - azimuth
+                            : azimuth_from_ == AzimuthFrom::ahead ? -azimuth
+                                                                  : azimuth) *
+                           degree;
   const double sigma_azimuth = said(Role::sigma_polar, 1).value_or(nan) * degree;
   if (is_bearing) return AnyPlot::bearing(0.0, from_east, sigma_azimuth * sigma_azimuth);
   const double sigma_range = said(Role::sigma_polar).value_or(nan);
@@ -616,14 +529,6 @@ std::vector<double> RecordingReader::covariance(const std::vector<int>& places, 
   return matrix;
 }
 
-std::vector<std::string> RecordingReader::nines() const {
-  std::vector<std::string> sentences;
-  for (std::size_t q = 0; q < quantities.size(); ++q)
-    if (const std::string doubt = columns_[q] ? nines_[q].doubt(header_of(q)) : ""; !doubt.empty())
-      sentences.push_back(doubt);
-  return sentences;
-}
-
 std::string RecordingReader::taken() const {
   std::vector<std::string> parts = {times_have_dates_
                                         ? fmt::format("{} and {}", csv_.names()[*date_], csv_.names()[time_])
@@ -645,7 +550,10 @@ std::string RecordingReader::taken() const {
     if (is_height && lower_case(header_of(q)).find("depth") != std::string::npos)
       part += ", as --columns says, and so upwards, although it is called a depth";
     if (q == place_of(Role::polar) + 1)
-      part += fmt::format(" {}{}", from_north_ ? "clockwise from north" : "counter-clockwise from east",
+      part += fmt::format(" {}{}",
+                          azimuth_from_ == AzimuthFrom::north   ? "clockwise from north"
+                          : azimuth_from_ == AzimuthFrom::ahead ? "clockwise from ahead (x)"
+                                                                : "counter-clockwise from east",
                           located() && bearings() ? " in rows without a position" : "");
     if (q == place_of(Role::polar) && axes_ == 2) part += " along the ground";
     if (is_accuracy(quantity.role)) part += " for the row's accuracy";
@@ -734,6 +642,9 @@ std::vector<std::string> RecordingReader::notes() const {
                                          negative_speeds_)},
       {bearings_ > 0 && unused_azimuths_ > 0,
        fmt::format("Azimuths do not count in rows with a position: {} rows", unused_azimuths_)},
+      {senseless_.rows > 0, fmt::format("Rows with a number that no measurement can be, which count as missed: {}, the "
+                                        "first on line {}",
+                                        senseless_.rows, senseless_.first_line)},
       {midnights_.rows > 0, fmt::format("Times of day pass midnight {}, first on line {}; there the time falls by more "
                                         "than 12 h, and days are counted from the first",
                                         times, midnights_.first_line)}};

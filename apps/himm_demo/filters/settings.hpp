@@ -1,5 +1,7 @@
 #pragma once
 
+#include <set>
+
 #include <sigmax/hybrid/any_target.hpp>
 
 #include "recording/recording.hpp"

@@ -204,6 +204,7 @@ class TrackRun {
     }
     Target& target = found->second;
     if (!options_.radar.sigma) places_.place(row);
+    if (sinks_.rows) sinks_.rows(row, places_.frame() ? &*places_.frame() : nullptr);
     if (!target.anchor && (places_.frame() || (recording_.geodetic() && axes_seen(row.plot, axes_) > 0)))
       begin_frames(target, places_.frame() ? places_.frame()->origin() : place_of(row.plot, axes_, 0.0));
     if (options_.radar.sigma) see_by_radar(row, where(row, target), axes_, options_.radar, target.random, file());
@@ -283,12 +284,6 @@ class TrackRun {
   /// What a row measured, perhaps after a simulated radar has seen it.
   void measured(const Row& row, const Target& target) {
     const auto position = where(row, target);
-    const bool is_place = recording_.geodetic() && row.plot.sensor == AnyPlot::Sensor::components;
-    const LocalFrame* const frame = is_place && target.anchor ? &*target.anchor : nullptr;
-    outcome_.doubts.see(row, position, frame, axes_);
-    constexpr std::size_t most_tracks = 64;
-    if (recording_.has_tracks() && (outcome_.doubts_of.size() < most_tracks || outcome_.doubts_of.contains(row.track)))
-      outcome_.doubts_of[row.track].see(row, position, frame, axes_);
     const bool is_seen = axes_seen(row.plot, axes_) == axes_;
     if (is_seen && row.plot.sensor != AnyPlot::Sensor::components) validate(row);
     const bool judged = row.truth && is_seen;
@@ -589,8 +584,6 @@ class TrackRun {
     if (outcome_.rows == 0 && !options_.recording.select.empty())
       throw InputError("{}: no row has {}; see how the file writes the value", file(),
                        fmt::join(options_.recording.select, " and "));
-    if (const auto doubts = outcome_.doubts.sentences(recording_); !doubts.empty())
-      throw InputError("{}", doubts.front());
     if (outcome_.bearings > 0 && outcome_.bearings == outcome_.measurements)
       throw InputError(
           {.where = file(),

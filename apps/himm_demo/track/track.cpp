@@ -4,6 +4,8 @@
 
 #include "himm_demo/track/track.hpp"
 
+#include "recording/checks/checks.hpp"
+
 namespace sigmax::apps {
 
 namespace {
@@ -20,10 +22,10 @@ class Reporter {
            const TrackOutcome& outcome, Result& result)
       : options_(options), recording_(recording), filters_(filters), outcome_(outcome), result_(result) {}
 
-  std::vector<std::string> made() {
+  std::vector<std::string> made(std::vector<std::string> findings) {
     add_facts();
     describe();
-    std::vector<std::string> warnings = warnings_of(options_, recording_, filters_, outcome_);
+    std::vector<std::string> warnings = warnings_of(options_, recording_, filters_, outcome_, std::move(findings));
     if (!warnings.empty()) result_.fact({"warnings"}, warnings);
     result_.page.title = "Tracks of " + options_.recording.file;
     for (const std::string& warning : warnings) result_.page.verdict.push_back("Warning: " + warning);
@@ -271,14 +273,25 @@ void track_and_report(TrackOptions options) {
   ResultFiles files(options.output);
   std::optional<TrackPage> tracks;
   if (files.report_wanted()) tracks.emplace(filters, recording, options.radar.sigma || recording.has_truth());
-  const TrackOutcome outcome = run_track(options, recording, filters, {&files, tracks ? &*tracks : nullptr});
+  RecordingChecks checks(recording);
+  const auto see = [&](const Row& row, const LocalFrame* frame) { checks.see(row, frame); };
+  const auto complain_of = [](const std::vector<std::string>& warnings) {
+    if (!warnings.empty()) std::fflush(stdout);  // they come last where both streams are one
+    for (const auto& warning : warnings) complain("himm_demo: warning: " + warning);
+  };
+  TrackOutcome outcome;
+  try {
+    outcome = run_track(options, recording, filters, {&files, tracks ? &*tracks : nullptr, see});
+  } catch (const InputError&) {
+    complain_of(checks.findings());  // which may be why
+    throw;
+  }
   if (tracks) tracks->finish(outcome);
   Result result(options.output);
-  const auto warnings = Reporter(options, recording, filters, outcome, result).made();
+  const auto warnings = Reporter(options, recording, filters, outcome, result).made(checks.findings());
   if (tracks) tracks->add_to(result.page, outcome);
   result.publish(files);
-  if (!warnings.empty()) std::fflush(stdout);  // they come last where both streams are one
-  for (const auto& warning : warnings) complain("himm_demo: warning: " + warning);
+  complain_of(warnings);
 }
 
 }  // namespace

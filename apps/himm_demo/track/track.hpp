@@ -6,7 +6,6 @@
 #include <sigmax/estimation/root_mean_square.hpp>
 
 #include "himm_demo/track/page.hpp"
-#include "recording/doubts/doubts.hpp"
 
 namespace sigmax::apps {
 
@@ -133,21 +132,21 @@ struct TrackOutcome {
   std::size_t predicted = 0;                              ///< tracks, up to the time that was asked for
   std::size_t unpredicted = 0;                            ///< those of them of which a filter begins anew before
   std::optional<Geodetic> origin;  ///< from where positions are counted, if that is one place for all tracks
-  Doubts doubts;
-  std::map<std::string, Doubts> doubts_of;  ///< each track, up to some
   Validity validity;
   Outliers outliers;
   Refusals refusals;
 };
 
-/// What may be wrong with the recording, or with the settings for it, in sentences.
+/// What may be wrong with the recording, or with the settings for it, in sentences: findings of its checks come first.
 std::vector<std::string> warnings_of(const TrackOptions& options, const RecordingReader& recording,
-                                     const std::vector<FilterSettings>& filters, const TrackOutcome& outcome);
+                                     const std::vector<FilterSettings>& filters, const TrackOutcome& outcome,
+                                     std::vector<std::string> findings);
 
 /// Where a run puts what it finds row by row; null where nobody wants it.
 struct TrackSinks {
   ResultFiles* files = nullptr;  ///< for estimates.csv
   TrackPage* page = nullptr;
+  std::function<void(const Row&, const LocalFrame*)> rows{};  ///< before a simulated radar sees them
 };
 
 /// Runs all filters over a recording. Throws InputError with file and line.

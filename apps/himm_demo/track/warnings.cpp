@@ -22,15 +22,16 @@ namespace {
 class Warnings {
  public:
   Warnings(const TrackOptions& options, const RecordingReader& recording, const std::vector<FilterSettings>& filters,
-           const TrackOutcome& outcome)
-      : options_(options), recording_(recording), filters_(filters), outcome_(outcome) {}
+           const TrackOutcome& outcome, std::vector<std::string> findings)
+      : options_(options),
+        recording_(recording),
+        filters_(filters),
+        outcome_(outcome),
+        warnings_(std::move(findings)) {}
 
   /// In sentences: causes before what they bring about.
   std::vector<std::string> all() {
     of_rows();
-    of_accuracy();
-    of_bearings();
-    of_map();
     causes_ = warnings_.size();
     of_outliers();
     of_lost_filters();
@@ -46,12 +47,6 @@ class Warnings {
 
  private:
   void of_rows() {
-    // What is true of one track need not show among all.
-    const bool ask_each = warnings_.empty() && outcome_.doubts_of.size() > 1;
-    constexpr std::size_t most_said = 3;
-    for (auto own = outcome_.doubts_of.begin(); ask_each && own != outcome_.doubts_of.end(); ++own)
-      for (const std::string& sentence : own->second.sentences(recording_))
-        if (warnings_.size() < most_said) warnings_.push_back(fmt::format("track '{}' of {}", own->first, sentence));
     const Validity& validity = outcome_.validity;
     const double unit = std::pow(10.0, std::floor(std::log10(validity.sigma_range_needed)) - 1.0);
     warn(validity.outside > 0,
@@ -63,56 +58,12 @@ class Warnings {
          validity.measurements, std::ceil(validity.sigma_range_needed / unit) * unit);
   }
 
-  void of_accuracy() {
-    const double rounding = outcome_.doubts.rounding(recording_);
-    const bool by_rows = outcome_.doubts.told_sigma().has_value();
-    const double told = told_sigma();
-    const bool is_alone = !recording_.has_sensors() && !options_.radar.sigma;
-    const std::string_view told_by = by_rows ? "their sigmas are" : "sigma_position_m is";
-    const auto remedy = [&](double sigma) {
-      return by_rows ? "see their unit, or write greater ones"
-                     : fmt::format("give --set sigma_position_m={:.3g} or more", sigma);
-    };
-    warn(rounding > 2.0 * told && (by_rows || !recording_.tells_accuracy()) && is_alone,
-         "{}: the coordinates come in steps, and to round to these alone makes errors of {:.3g} m along an axis, "
-         "where {} {:.3g}: if they are rounded, {}",
-         file_, rounding, told_by, told, remedy(rounding));
-    const double scatter = outcome_.doubts.scatter().value_or(0.0);
-    warn(scatter > std::max(3.0 * told, 4.0 * rounding) && (by_rows || !recording_.tells_accuracy()) && is_alone &&
-             !recording_.polar(),
-         "{}: positions scatter by {:.3g} m along an axis about their way, each otherwise, where {} {:.3g}: {}{}",
-         file_, scatter, told_by, told, remedy(scatter),
-         recording_.has_tracks() ? "" : "; if they are of several targets, tell these apart with --track-id COLUMN");
-  }
-
-  /// A map is true from where it begins; lines of sight from elsewhere are not quite straight on it.
-  void of_map() {
-    const double off = outcome_.doubts.off_the_map(recording_);
-    const RootMeanSquare& stated = outcome_.filters.front().sums[0].sigma[0];
-    warn(causes_ == 0 && warnings_.empty() && stated.count() > 0 && off > stated.value(),
-         "{}: far from where the map begins lines of sight are off by up to {:.2g} m, where the estimates are told to "
-         "be "
-         "{:.2g} m off: let it begin amid the sensors, by --origin LAT,LON,ALT",
-         file_, off, stated.value());
-  }
-
-  void of_bearings() {
-    const bool accelerates = std::ranges::any_of(filters_, [](const FilterSettings& filter) {
-      return std::ranges::any_of(filter.motions, [](const auto& motion) { return motion.known().derivatives > 2; });
-    });
-    warn(outcome_.bearings == outcome_.measurements && accelerates && outcome_.doubts.from_one_that_moves(),
-         "{}: all rows are bearings from one place that moves, which hardly tell how far a target is that may "
-         "accelerate: the estimates are farther off than they say; try --set models=[dwna]",
-         file_);
-  }
-
   void of_outliers() {
     const bool tied = std::ranges::all_of(filters_, [](const FilterSettings& filter) {
       return filter.accuracy.velocity_mps && std::ranges::all_of(filter.models, [](const std::string& model) {
                return model == "dwna" || model == "dwpa";
              });
     });
-    const double apart = tied ? outcome_.doubts.apart(told_sigma(), *filters_.front().accuracy.velocity_mps) : 0.0;
     const bool by_slopes = recording_.polar() && std::ranges::any_of(filters_, [](const FilterSettings& filter) {
                              return filter.member == MemberType::ekf &&
                                     (filter.radar_measurement == RadarForm::polar || filter.accuracy.range_rate_mps);
@@ -128,15 +79,6 @@ class Warnings {
          by_slopes ? ", or, for a target that comes near a radar, try --set member=ukf" : "",
          tied ? "; dwna and dwpa tie a velocity to the way of the step: try --set models=[cwna,cwpa]" : "",
          many ? "; if the file holds several targets, tell them apart with --track-id COLUMN" : "");
-    warn(outliers.count == 0 && apart > 1.2,
-         "{}: where velocities change, the ways by them are {:.2g} times as far from the positions as the sigmas say: "
-         "dwna and dwpa tie a velocity to the way of the step, which a turn within it does not: try --set "
-         "models=[cwna,cwpa], or raise the sensor's sigmas",
-         file_, apart);
-    const auto& [senseless, first_senseless] = recording_.senseless();
-    warn(senseless > 0,
-         "{}:{}: no measurement can be that great; {} such {} as missed; leave the cells empty where there is none",
-         file_, first_senseless, senseless, senseless == 1 ? "row counts" : "rows count");
   }
 
   void of_lost_filters() {
@@ -321,12 +263,6 @@ class Warnings {
     if (holds) warnings_.push_back(fmt::format(format, std::forward<Args>(args)...));
   }
 
-  /// Of positions, in m: what the rows tell, else the least that a filter believes.
-  double told_sigma() const {
-    const auto believed = [](const FilterSettings& filter) { return filter.accuracy.position_m.front(); };
-    return outcome_.doubts.told_sigma().value_or(std::ranges::min(each(filters_, believed)));
-  }
-
   /// The filter that counts the most.
   std::vector<FilterOutcome>::const_iterator most_of(Counted FilterOutcome::*which) const {
     return std::ranges::max_element(outcome_.filters, {}, [=](const auto& one) { return (one.*which).rows; });
@@ -345,15 +281,16 @@ class Warnings {
   const std::vector<FilterSettings>& filters_;
   const TrackOutcome& outcome_;
   const std::string& file_ = recording_.file();
-  std::vector<std::string> warnings_ = outcome_.doubts.sentences(recording_);
+  std::vector<std::string> warnings_;
   std::size_t causes_ = 0;
 };
 
 }  // namespace
 
 std::vector<std::string> warnings_of(const TrackOptions& options, const RecordingReader& recording,
-                                     const std::vector<FilterSettings>& filters, const TrackOutcome& outcome) {
-  return Warnings(options, recording, filters, outcome).all();
+                                     const std::vector<FilterSettings>& filters, const TrackOutcome& outcome,
+                                     std::vector<std::string> findings) {
+  return Warnings(options, recording, filters, outcome, std::move(findings)).all();
 }
 
 }  // namespace sigmax::apps

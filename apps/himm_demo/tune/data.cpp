@@ -3,6 +3,7 @@
 #include <sigmax/estimation/dense.hpp>
 #include <sigmax/hybrid/fit_target.hpp>
 
+#include "recording/checks/checks.hpp"
 #include "support/random.hpp"
 
 namespace sigmax::apps {
@@ -10,8 +11,40 @@ namespace {
 
 constexpr std::size_t fewest_measurements = 10;  // of a track: three start the filter
 constexpr std::size_t fewest_in_all = 40;
-constexpr double stray_share = 0.01;  // of all measurements
-constexpr double rows_apart = 60.0;   // in s, in which what moves may turn more than once
+constexpr double stray_share = 0.01;                             // of all measurements
+constexpr double metres_a_degree = 60.0 * units::nautical_mile;  // of latitude
+constexpr double rows_apart = 60.0;                              // in s, in which what moves may turn more than once
+
+/// The standard deviation of the rounding of numbers that come in whole steps; else 0, and infinite where they never
+/// change.
+double rounding_of(std::vector<double> numbers) {
+  std::ranges::sort(numbers);
+  std::vector<double> apart;  // those that differ by more than the reading of decimals does
+  for (std::size_t k = 1; k < numbers.size(); ++k)
+    if (const double step = numbers[k] - numbers[k - 1]; step > 1e-10 * std::abs(numbers[k])) apart.push_back(step);
+  if (apart.empty()) return std::numeric_limits<double>::infinity();
+  const double least = *std::ranges::min_element(apart);
+  const auto whole = std::ranges::count_if(
+      apart, [&](double step) { return std::abs(step / least - std::round(step / least)) < 0.05; });
+  // Where hardly a number comes twice, and all are one step apart, it is the way of what moves evenly.
+  const auto single = std::ranges::count_if(apart, [&](double step) { return step < 1.5 * least; });
+  const bool is_even = 5 * single > 4 * std::ssize(numbers) && 2 * apart.size() > numbers.size();
+  if (10 * whole >= 9 * std::ssize(apart) && !is_even) return least / std::sqrt(12.0);
+  // As a float holds them, whose steps grow with the number.
+  const auto step_at = [](double number) { return number == 0.0 ? 0.0 : std::exp2(std::ilogb(number) - 23); };
+  const auto held = std::ranges::count_if(numbers, [&](double number) {
+    return std::abs(number - static_cast<double>(static_cast<float>(number))) <= 0.15 * step_at(number);
+  });
+  const double float_step = step_at(numbers[numbers.size() / 2]);
+  const double by_float = 20 * held >= 19 * std::ssize(numbers) && least > 0.5 * float_step ? float_step : 0.0;
+  for (double digits = 1.0; digits < 1e7; digits *= 10.0)  // as they are written
+    if (std::ranges::all_of(numbers, [&](double number) {
+          const double all = number * digits;
+          return std::abs(all - std::round(all)) < 1e-9 + 1e-15 * std::abs(all);
+        }))
+      return std::max(by_float, 1.0 / digits) / std::sqrt(12.0);
+  return by_float / std::sqrt(12.0);
+}
 
 void refuse_other_kind(const TuneOptions& options, const TuneData& data, const RecordingReader& recording) {
   const std::string& file = recording.file();
@@ -74,7 +107,7 @@ void read(const std::string& file, const TuneOptions& options, const FilterSetti
   const bool one_frame = options.radar.sigma || recording.has_truth() || recording.seen_from_places();
   std::optional<Geodetic> first = recording.origin();
   std::map<std::string, Open, std::less<>> open;
-  Doubts doubts;
+  RecordingChecks checks(recording);
   for (Row row; recording.next(row);) {
     const auto [found, is_new] =
         open.try_emplace(row.track, Open{data.tracks.size(), stream_of(options.seed, row.track)});
@@ -85,8 +118,8 @@ void read(const std::string& file, const TuneOptions& options, const FilterSetti
       places.place(row);
     }
     if (!first && places.frame()) first = places.frame()->origin();
-    const Row told = row;
-    const bool is_place = recording.geodetic() && told.plot.sensor == AnyPlot::Sensor::components;
+    checks.see(row, places.frame() ? &*places.frame() : nullptr);
+    const bool is_place = recording.geodetic() && row.plot.sensor == AnyPlot::Sensor::components;
     if (is_place && axes_seen(row.plot, data.axes) > 0) {
       const Geodetic here = place_of(row.plot, data.axes, its.altitude_m), start = place_of(row.plot, data.axes, 0.0);
       if (!first) first = start;
@@ -98,8 +131,6 @@ void read(const std::string& file, const TuneOptions& options, const FilterSetti
       row.plot = its.at ? in_frame(row.plot, *its.frame, *its.at, data.axes) : AnyPlot::missed(row.plot.time);
     if (options.radar.sigma)
       see_by_radar(row, position_of(row.plot, data.axes), data.axes, options.radar, its.random, recording.file());
-    doubts.see(options.radar.sigma ? row : told, position_of(row.plot, data.axes),
-               is_place && !options.radar.sigma && its.frame ? &*its.frame : nullptr, data.axes);
     data.has_truth |= row.truth.has_value();
     auto& rows = data.tracks[its.place].rows;
     row.plot.tag = rows.size();
@@ -110,7 +141,7 @@ void read(const std::string& file, const TuneOptions& options, const FilterSetti
                                      recording.file(), recording.skipped()));
   for (const auto& notes : {recording.notes(), places.notes()})
     for (const std::string& note : notes) data.notes.push_back(fmt::format("{}: {}", file, note));
-  for (const std::string& doubt : doubts.sentences(recording)) data.notes.push_back(doubt);
+  for (const std::string& finding : checks.findings()) data.notes.push_back(finding);
 }
 
 /// The positions of one sensor of a track, and how far each is off the line between the two beside it, along x and y.

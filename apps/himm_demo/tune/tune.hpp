@@ -3,7 +3,6 @@
 #include <sigmax/hybrid/cross_validation.hpp>
 
 #include "himm_demo/filters/settings.hpp"
-#include "recording/doubts/doubts.hpp"
 #include "recording/plots.hpp"
 #include "result/result.hpp"
 #include "support/progress.hpp"
