@@ -50,49 +50,4 @@ TYPED_PROPERTY(ScalingAlgebraLaws, DivideUndoesTimesAndPassesThroughPlus) {
   require_near(A::plus(A::divide(a, scale), A::divide(b, scale)), A::divide(A::plus(a, b), scale));
 }
 
-// Tables of any numbers, normalised or not: what composition inherits from the algebra.
-
-template <Algebra A>
-Table composed(const Table& left, const Table& right) {
-  Table result(0, 0);
-  kernels::compose<A>(left, right, result);
-  return result;
-}
-
-template <Algebra A>
-Table summed(const Table& a, const Table& b) {
-  Table result = a;
-  for (std::size_t i = 0; i < a.size(); ++i) result.data()[i] = A::plus(a.data()[i], b.data()[i]);
-  return result;
-}
-
-Table any_table(std::size_t rows, std::size_t columns) { return table_of(any_unit_rows(rows, columns)); }
-
-TYPED_PROPERTY(AlgebraLaws, CompositionIsAssociative) {
-  using A = TypeParam;
-  const std::size_t x = any_size(), m = any_size(), l = any_size(), y = any_size();
-  const Table a = any_table(m, x), b = any_table(l, m), c = any_table(y, l);
-  require_near(rows_of(composed<A>(composed<A>(a, b), c)), rows_of(composed<A>(a, composed<A>(b, c))));
-}
-
-TYPED_PROPERTY(AlgebraLaws, CompositionDistributesOverPlus) {
-  using A = TypeParam;
-  const std::size_t x = any_size(), m = any_size(), y = any_size();
-  const Table left = any_table(m, x), other_left = any_table(m, x);
-  const Table right = any_table(y, m), other_right = any_table(y, m);
-  require_near(rows_of(composed<A>(summed<A>(left, other_left), right)),
-               rows_of(summed<A>(composed<A>(left, right), composed<A>(other_left, right))));
-  require_near(rows_of(composed<A>(left, summed<A>(right, other_right))),
-               rows_of(summed<A>(composed<A>(left, right), composed<A>(left, other_right))));
-}
-
-TYPED_PROPERTY(AlgebraLaws, CompositionIsMonotone) {
-  using A = TypeParam;
-  const std::size_t x = any_size(), m = any_size(), y = any_size();
-  const Table left = any_table(m, x), right = any_table(y, m);
-  const Table greater_left = summed<Max>(left, any_table(m, x)), greater_right = summed<Max>(right, any_table(y, m));
-  const Table less = composed<A>(left, right), greater = composed<A>(greater_left, greater_right);
-  for (std::size_t i = 0; i < less.size(); ++i) RC_ASSERT(less.data()[i] <= greater.data()[i]);
-}
-
 }  // namespace algebra_test

@@ -48,12 +48,6 @@ TYPED_PROPERTY(MeasureLaws, AUnionOfDisjointEventsIsTheirCombination) {
   require_near(measure(distribution, a | b), Algebra::plus(measure(distribution, a), measure(distribution, b & ~a)));
 }
 
-TYPED_PROPERTY(MeasureLaws, APartIsNoGreaterThanTheWhole) {
-  const auto [x, distribution, a, b] = AnyEvents<TypeParam>{};
-  RC_ASSERT(measure(distribution, a & b) <= measure(distribution, a));
-  RC_ASSERT(measure(distribution, a) <= measure(distribution, a | b));
-}
-
 TYPED_PROPERTY(MeasureLaws, TheConditionalTimesTheMeasureOfTheConditionIsTheMeasureOfBoth) {
   const auto [x, distribution, a, b] = AnyEvents<TypeParam>{};
   if (measure(distribution, b) > 0.0)
@@ -81,17 +75,6 @@ TYPED_PROPERTY(MeasureLaws, EventsAreABooleanAlgebra) {
   RC_ASSERT((a | ~a) == whole_event(x));
 }
 
-PROPERTY(ProbabilityLaws, InclusionAndExclusion) {
-  const auto [x, p, a, b] = AnyEvents<Random>{};
-  require_near(probability(p, a | b) + probability(p, a & b), probability(p, a) + probability(p, b));
-  require_near(probability(p, ~a), 1.0 - probability(p, a));
-}
-
-PROPERTY(PossibilityLaws, AUnionIsAsPossibleAsTheMorePossible) {  // Axiom 3: Π(A ∪ B) = max, also where they overlap
-  const auto [y, pi, a, b] = AnyEvents<Fuzzy>{};
-  RC_ASSERT(possibility(pi, a | b) == std::max(possibility(pi, a), possibility(pi, b)));
-}
-
 PROPERTY(PossibilityLaws, NecessityIsOneLessThePossibilityOfTheComplement) {  // N(A) = 1 − Π(Aᶜ) = min over Aᶜ of 1 − π
   const auto [y, pi, a, b] = AnyEvents<Fuzzy>{};
   double least = 1.0;
@@ -100,24 +83,6 @@ PROPERTY(PossibilityLaws, NecessityIsOneLessThePossibilityOfTheComplement) {  //
   RC_ASSERT(necessity(pi, a) == least);
   RC_ASSERT(necessity(pi, a) == 1.0 - possibility(pi, ~a));
   RC_ASSERT(necessity(pi, a & b) == std::min(necessity(pi, a), necessity(pi, b)));
-}
-
-PROPERTY(PossibilityLaws, AnEventOrItsComplementIsFullyPossible) {  // max(Π(A), Π(Aᶜ)) = 1
-  const auto [y, pi, a, b] = AnyEvents<Fuzzy>{};
-  RC_ASSERT(std::max(possibility(pi, a), possibility(pi, ~a)) == 1.0);
-}
-
-PROPERTY(PossibilityLaws, WhatIsAtAllNecessaryIsFullyPossible) {  // N(A) > 0 ⇒ Π(A) = 1
-  const auto [y, pi, a, b] = AnyEvents<Fuzzy>{};
-  if (necessity(pi, a) > 0.0) RC_ASSERT(possibility(pi, a) == 1.0);
-  if (possibility(pi, a) < 1.0) RC_ASSERT(necessity(pi, a) == 0.0);
-}
-
-PROPERTY(PossibilityLaws, ConditionalNecessityIsOneLessTheConditionalPossibilityOfTheComplement) {
-  const auto [y, pi, a, b] = AnyEvents<Fuzzy>{};
-  RC_PRE(possibility(pi, b) > 0.0);
-  require_near(necessity(given(pi, b), a), 1.0 - possibility(pi, ~a & b) / possibility(pi, b));
-  RC_ASSERT(necessity(given(pi, b), b) == 1.0);
 }
 
 PROPERTY(CompatibilityLaws, IsTheShareOfTheObjectsMeasure) {  // (1)

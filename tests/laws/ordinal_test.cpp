@@ -66,61 +66,12 @@ PROPERTY(OrdinalLaws, UpdateIsItsRestatementAndKeepsNormalization) {
   RC_ASSERT(total<Ordinal>(posterior.values()) == 1.0);
 }
 
-PROPERTY(OrdinalLaws, UpdateIsIdempotentIfEvidenceTreatsTheWinnersAlike) {
-  const Prior p;
-  Numbers evidence = any_unit_numbers(p.x.size());
-  const Numbers joint = minima(p.values, evidence);
-  RC_PRE(possible(joint));
-  const double greatest = *std::max_element(joint.begin(), joint.end());
-  double of_winners = 1.0;
-  for (std::size_t i = 0; i < joint.size(); ++i)
-    if (joint[i] == greatest) of_winners = std::min(of_winners, evidence[i]);
-  for (std::size_t i = 0; i < joint.size(); ++i)
-    if (joint[i] == greatest) evidence[i] = of_winners;  // the joint stays as it is
-  const Likelihood likelihood{p.x, evidence};
-  const auto once = update(p.prior, likelihood);
-  RC_ASSERT(numbers_of(update(once, likelihood).values()) == numbers_of(once.values()));
-}
-
-PROPERTY(OrdinalLaws, UpdateByCrispEvidenceIsIdempotent) {
-  const Prior p;
-  Numbers crisp = any_unit_numbers(p.x.size());
-  for (double& value : crisp) value = value >= 0.5 ? 1.0 : 0.0;
-  RC_PRE(possible(minima(p.values, crisp)));
-  const Likelihood likelihood{p.x, crisp};
-  const auto once = update(p.prior, likelihood);
-  RC_ASSERT(numbers_of(update(once, likelihood).values()) == numbers_of(once.values()));
-}
-
-PROPERTY(OrdinalLaws, RepeatedEvidenceChangesNothingFromTheSecondTimeOn) {
-  const Prior p;
-  const Numbers evidence = any_unit_numbers(p.x.size());
-  RC_PRE(possible(minima(p.values, evidence)));
-  const Likelihood likelihood{p.x, evidence};
-  const auto twice = update(update(p.prior, likelihood), likelihood);
-  RC_ASSERT(numbers_of(update(twice, likelihood).values()) == numbers_of(twice.values()));
-}
-
 TEST(OrdinalLaws, UpdateByOtherEvidenceMayDecideATieTheSecondTime) {  // the residuum, not the minimum, is to blame
   const OrdinalVariable x{"x", {"a", "b"}};
   const Likelihood likelihood{x, {1.0, 0.5}};
   const auto once = update(Distribution{x, {0.5, 1.0}}, likelihood), twice = update(once, likelihood);
   EXPECT_EQ(numbers_of(once.values()), (Numbers{1.0, 1.0}));
   EXPECT_EQ(numbers_of(twice.values()), (Numbers{1.0, 0.5}));
-}
-
-PROPERTY(OrdinalLaws, EvidenceThatSaysNothingChangesNothing) {
-  const Prior p;
-  RC_ASSERT(numbers_of(update(p.prior, Likelihood{p.x}).values()) == p.values);
-}
-
-PROPERTY(OrdinalLaws, SupportShrinksToWhatEvidenceAllows) {
-  const Prior p;
-  const Numbers evidence = any_unit_numbers(p.x.size());
-  RC_PRE(possible(minima(p.values, evidence)));
-  const auto posterior = update(p.prior, Likelihood{p.x, evidence});
-  for (std::size_t i = 0; i < p.x.size(); ++i)
-    RC_ASSERT((posterior[i] > 0.0) == (p.values[i] > 0.0 && evidence[i] > 0.0));
 }
 
 PROPERTY(OrdinalLaws, ALikelihoodIsCarriedBackAsItsRestatement) {
@@ -142,25 +93,6 @@ PROPERTY(OrdinalLaws, TheJointIsRebuiltFromMarginalAndConditional) {
     for (std::size_t k = 0; k < x.size(); ++k)
       RC_ASSERT(std::min(inverse.relation(k, i), marginal[k]) == std::min(relation(i, k), prior[i]));
   for (const std::size_t k : inverse.unreachable) RC_ASSERT(marginal[k] == 0.0);
-}
-
-PROPERTY(OrdinalLaws, RelabellingByAnIncreasingFunctionRelabelsAnswers) {  // only the order of the grades counts
-  const auto x = any_variable<Ordinal>("x"), y = any_variable<Ordinal>("y");
-  const auto grade = [](double value) { return value * value / 2.0 + value / 2.0; };  // 0 and 1 stay
-  Rows rows = any_normalized_rows(By::max, y.size(), x.size());
-  for (Numbers& row : rows)
-    for (double& value : row) value = std::round(value * 1024.0) / 1024.0;  // so that the function is exact
-  Rows graded = rows;
-  for (Numbers& row : graded)
-    for (double& value : row) value = grade(value);
-  Numbers prior = any_normalized_numbers(By::max, y.size());
-  for (double& value : prior) value = std::round(value * 1024.0) / 1024.0;
-  Numbers graded_prior = prior;
-  for (double& value : graded_prior) value = grade(value);
-
-  const auto marginal = compose(Relation<Ordinal, Ordinal>{x, y, rows}, Distribution{y, prior});
-  const auto graded_marginal = compose(Relation<Ordinal, Ordinal>{x, y, graded}, Distribution{y, graded_prior});
-  for (std::size_t k = 0; k < x.size(); ++k) RC_ASSERT(graded_marginal[k] == grade(marginal[k]));
 }
 
 }  // namespace ordinal_test

@@ -26,22 +26,6 @@ void require_dominated(const Distribution<Random>& p, const Distribution<Fuzzy>&
   }
 }
 
-PROPERTY(RatioScaleLaws, EachDirectionUndoesTheOther) {  // (34), (35)
-  const RatioScale scale{any_exponent()};
-  const auto p = any_distribution(any_variable<Random>("x"));
-  require_near(to_probability(to_possibility(p, scale), scale).values(), p.values());
-  const auto pi = any_distribution(any_variable<Fuzzy>("y"));
-  require_near(to_possibility(to_probability(pi, scale), scale).values(), pi.values());
-}
-
-PROPERTY(RatioScaleLaws, EachDirectionKeepsTheOrder) {
-  const RatioScale scale{any_exponent()};
-  const auto p = any_distribution(any_variable<Random>("x"));
-  require_same_order(p.values(), to_possibility(p, scale).values());
-  const auto pi = any_distribution(any_variable<Fuzzy>("y"));
-  require_same_order(pi.values(), to_probability(pi, scale).values());
-}
-
 PROPERTY(RatioScaleLaws, ItIsItsRestatement) {
   const RatioScale scale{any_exponent()};
   const auto p = any_distribution(any_variable<Random>("x"));
@@ -65,24 +49,6 @@ PROPERTY(RatioScaleLaws, ItCommutesWithUpdate) {
                update(prior, Likelihood<Fuzzy>{prior.variable(), likelihood}).values());
 }
 
-PROPERTY(RatioScaleLaws, OutcomesAreDominatedIfTheExponentIsAtMostOne) {
-  const auto p = any_distribution(any_variable<Random>("x"));
-  const auto pi = to_possibility(p, RatioScale{std::min(1.0, any_exponent())});
-  for (std::size_t i = 0; i < p.size(); ++i) RC_ASSERT(pi[i] >= p[i]);
-}
-
-PROPERTY(RatioScaleLaws, EventsNeedNotBeDominated) {  // p = (1 − m q, q, …, q): Π = q / (1 − m q) < P = m q
-  const std::size_t m = *rc::gen::inRange<std::size_t>(2, 7);
-  const double count = static_cast<double>(m), q = 0.9 * (count - 1.0) / (count * count);
-  const RandomVariable x{"x", m + 1};
-  Numbers numbers(m + 1, q);
-  numbers[0] = 1.0 - count * q;
-  RC_PRE(numbers[0] > q);
-  const Distribution p{x, numbers};
-  const auto pi = to_possibility(p, RatioScale{});
-  RC_ASSERT(possibility(pi, ~Event{pi.variable(), {0}}) < probability(p, ~Event{x, {0}}) - 1e-3);
-}
-
 PROPERTY(DuboisPradeLaws, ItIsItsRestatement) {  // π_i = Σ {p_j : p_j ≤ p_i}
   const auto p = any_distribution(any_variable<Random>("x"));
   const auto pi = to_possibility(p, DuboisPrade{});
@@ -99,21 +65,6 @@ PROPERTY(DuboisPradeLaws, ItKeepsTheOrderAndDominates) {
   const auto pi = to_possibility(p, DuboisPrade{});
   require_same_order(p.values(), pi.values());
   require_dominated(p, pi);
-}
-
-PROPERTY(DuboisPradeLaws, NothingMoreSpecificDominatesAndKeepsTheOrder) {
-  // Each possibility is the probability of an event that no order-preserving π could make less possible.
-  const auto p = any_distribution(any_variable<Random>("x"));
-  const auto pi = to_possibility(p, DuboisPrade{});
-  const auto symmetric = to_possibility(p, DuboisPradeSandri{});
-  for (std::size_t i = 0; i < p.size(); ++i) {
-    std::vector<std::size_t> as_probable_or_less;
-    for (std::size_t k = 0; k < p.size(); ++k)
-      if (p[k] <= p[i]) as_probable_or_less.push_back(k);
-    require_near(probability(p, Event{p.variable(), as_probable_or_less}), pi[i]);
-    require_near(possibility(pi, Event{pi.variable(), as_probable_or_less}), pi[i]);
-    RC_ASSERT(pi[i] <= symmetric[i] + 1e-12);
-  }
 }
 
 PROPERTY(DuboisPradeSandriLaws, ItIsItsRestatement) {  // π_i = Σ_j min(p_i, p_j)
@@ -144,13 +95,6 @@ PROPERTY(DuboisPradeSandriLaws, ItsInverseSharesEveryCutEqually) {  // p_i = ∫
     }
     require_near(p[i], static_cast<double>(integral));
   }
-}
-
-PROPERTY(DuboisPradeSandriLaws, EachDirectionUndoesTheOther) {
-  const auto p = any_distribution(any_variable<Random>("x"));
-  require_near(to_probability(to_possibility(p, DuboisPradeSandri{}), DuboisPradeSandri{}).values(), p.values());
-  const auto pi = any_distribution(any_variable<Fuzzy>("y"));
-  require_near(to_possibility(to_probability(pi, DuboisPradeSandri{}), DuboisPradeSandri{}).values(), pi.values());
 }
 
 PROPERTY(DuboisPradeSandriLaws, EachDirectionKeepsTheOrderAndDominates) {
