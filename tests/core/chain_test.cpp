@@ -198,32 +198,6 @@ PROPERTY(Chain, OfOrdinalVariablesIsPlainMaxMin) {
 
 constexpr int million = 1000000;
 
-TEST(Chain, OfAMillionRelationsAndReportsHasTheEvidenceOfItsClosedForm) {
-  // A cyclic permutation: the state is known at every step, so the evidence is a product of known likelihoods.
-  const Relation next{weather, weather, {{0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}, {1.0, 0.0, 0.0}}};
-  const Likelihood report{weather, {0.125, 0.5, 0.25}};
-  Chain chain{Distribution{weather, {1.0, 0.0, 0.0}}};
-  for (int step = 0; step < million; ++step) chain = update(compose(next, std::move(chain)), report);
-  // 10⁶ = 3 · 333333 + 1 steps: each turn passes wet, snow, dry; the last step is to wet.
-  EXPECT_CLOSE(chain.log_total(), -(333333.0 * 6.0 + 1.0) * std::log(2.0), 1e-14);
-  EXPECT_EQ(most_likely(chain), "wet");
-}
-
-TEST(Chain, OfAMillionAlternatingRelationsHasTheBetaOfItsClosedForm) {
-  // Two outcomes that are alike: p(x|y) = ½ and π(y|x) = 1. Sum over x of π p is 2 a, max over y of p π is a / 2 … with
-  // a the common number; so β halves or doubles in turn.
-  const RandomVariable x{"x", {"a", "b"}};
-  const FuzzyVariable y{"y", {"c", "d", "e"}};
-  const Relation y_given_x{y, x, {{1.0, 0.25, 0.0}, {0.25, 1.0, 0.0}}};
-  const Relation x_given_y{x, y, {{0.75, 0.25}, {0.25, 0.75}, {0.5, 0.5}}};
-  // By symmetry both x have the number a: c and d get 5a/4, e nothing; then both x get ¾ · 5a/4. So a grows by 15/16.
-  Chain<Random> chain{uninformative(x)};
-  for (int pair = 0; pair < million / 2; ++pair) chain = compose(x_given_y, compose(y_given_x, std::move(chain)));
-  EXPECT_CLOSE(chain.log_total(), (million / 2) * std::log(15.0 / 16.0), 1e-14);
-  EXPECT_CLOSE(compose(y_given_x, std::move(chain)).log_total(),
-               (million / 2) * std::log(15.0 / 16.0) + std::log(0.625), 1e-14);
-}
-
 TEST(Chain, ThroughAMillionSubnormalNumbersLosesNothing) {
   const FuzzyVariable state{"state", {"on", "off"}};
   const Relation next{state, state, {{least_subnormal, 1.0}, {1.0, least_subnormal}}};

@@ -63,16 +63,6 @@ static_assert(ComposesInto<R<Random, Fuzzy>, R<Fuzzy, Fuzzy>, I<Random, Fuzzy>>)
 static_assert(!ComposesInto<R<Random, Fuzzy>, R<Fuzzy, Fuzzy>, R<Random, Fuzzy>>);
 static_assert(!ComposesInto<R<Fuzzy, Fuzzy>, R<Fuzzy, Random>, I<Fuzzy, Random>>);
 
-TEST(Compose, EliminatesARandomVariableByTheSum) {  // (7)
-  const RandomVariable a{"a", 2}, b{"b", 2}, c{"c", 2};
-  const Relation a_given_b{a, b, {{0.9, 0.1}, {0.3, 0.7}}};
-  const Relation b_given_c{b, c, {{0.5, 0.5}, {0.2, 0.8}}};
-  const Relation composed = compose(a_given_b, b_given_c);
-  EXPECT_EQ(composed.to(), a);
-  EXPECT_EQ(composed.from(), c);
-  EXPECT_CLOSE(composed.table().values(), (std::vector{0.6, 0.4, 0.42, 0.58}), 1e-15);
-}
-
 TEST(Compose, RefusesAnotherVariableInTheMiddleByBothNames) {
   const FuzzyVariable temper{"temper", {"calm", "wild"}};
   const Relation temper_given_age{temper, age, {{0.3, 1.0}, {1.0, 0.6}, {1.0, 0.2}}};
@@ -83,24 +73,6 @@ TEST(Compose, RefusesAnotherVariableInTheMiddleByBothNames) {
   const FuzzyVariable finer_mood{"mood", {"calm", "wild", "odd"}};
   EXPECT_INVALID(("'mood' with 2 outcomes", "'mood' with 3 outcomes"),
                  compose(speed_given_mood, uninformative(finer_mood)));
-}
-
-TEST(Compose, IntoAResultIsTheSameAsTheValue) {
-  for (const std::size_t n : {1U, 3U, 5U, 30U}) {  // inline and on the heap
-    const RandomVariable cell{"cell", n};
-    std::vector<std::vector<double>> rows(n, std::vector<double>(n, 0.0));
-    for (std::size_t i = 0; i < n; ++i) {
-      rows[i][i] += 0.75;
-      rows[i][(i + 1) % n] += 0.25;
-    }
-    const R<Random, Random> step{cell, cell, rows};
-    R<Random, Random> result = step;
-    compose(step, step, result);
-    EXPECT_CLOSE(result.table().values(), compose(step, step).table().values(), 0.0);
-    if (n > 2) {
-      EXPECT_CLOSE(result(0, 1), 2 * 0.75 * 0.25, 1e-15);
-    }
-  }
 }
 
 TEST(Compose, RefusesAResultOfOtherVariablesAndLeavesItAlone) {
@@ -125,16 +97,6 @@ TEST(Compose, PredictsABeliefInTheLogDomain) {  // (51), (53)
   EXPECT_CLOSE(compose(transition, far).distribution().values(), (std::vector{0.95, 0.05}), 1e-15);
   const Relation stay{mode, mode, {{1.0, 0.0}, {0.0, 1.0}}};
   EXPECT_EQ(compose(stay, far).log(1), -2000.0);
-}
-
-TEST(Compose, CarriesALikelihoodBack) {  // (42), (45)
-  const auto of_fuzzy = compose(Likelihood{mood, {0.5, 0.8}}, mood_given_age);
-  EXPECT_CLOSE(of_fuzzy["young"], 0.8, 1e-15);
-  EXPECT_CLOSE(of_fuzzy["middle"], 0.5, 1e-15);
-  EXPECT_CLOSE(of_fuzzy["old"], 0.5, 1e-15);
-  const auto of_random = compose(Likelihood{speed, {0.5, 0.8}}, speed_given_mood);
-  EXPECT_CLOSE(of_random["calm"], 0.53, 1e-15);
-  EXPECT_CLOSE(of_random["wild"], 0.71, 1e-15);
 }
 
 TEST(Compose, CarriesAnExcludingLikelihoodBackAsExcluding) {

@@ -41,32 +41,6 @@ TEST(Distribution, TakesAsManyValuesAsThereAreOutcomes) {
   EXPECT_INVALID(("'mood'", "2 outcomes", "0 values"), Distribution(mood, std::vector<double>{}));
 }
 
-TEST(Distribution, OfASingleOutcomeIsCertain) {
-  const Distribution p{RandomVariable{"single", {"only"}}, {1.0}};
-  EXPECT_EQ(p["only"], 1.0);
-  EXPECT_EQ(most_likely(p), "only");
-}
-
-TEST(Distribution, OfAHundredThousandOutcomesIsHeldAndCopied) {
-  const RandomVariable cell{"cell", 100000};
-  std::vector<double> values(cell.size(), 0.0);
-  values[99999] = 1.0;
-  const Distribution p{cell, values};
-  const Distribution<Random> copy = p;
-  EXPECT_EQ(copy["99999"], 1.0);
-  EXPECT_EQ(copy[0], 0.0);
-  EXPECT_EQ(most_likely(copy), "99999");
-}
-
-TEST(Distribution, CanBeAssignedAndMoved) {
-  Distribution p{weather, {0.5, 0.25, 0.25}};
-  p = Distribution{weather, {0.0, 0.0, 1.0}};
-  EXPECT_EQ(p["snow"], 1.0);
-  const Distribution<Random> moved = std::move(p);
-  EXPECT_EQ(moved["snow"], 1.0);
-  EXPECT_EQ(moved.variable().name(), "weather");
-}
-
 TEST(Uninformative, IsUniformForRandomAndOneForFuzzy) {
   EXPECT_CLOSE(uninformative(weather).values(), std::vector(3, 1.0 / 3.0), 1e-15);
   EXPECT_CLOSE(uninformative(mood).values(), std::vector(2, 1.0), 0.0);
@@ -74,13 +48,6 @@ TEST(Uninformative, IsUniformForRandomAndOneForFuzzy) {
   const auto cell = uninformative(RandomVariable("cell", 100000));
   EXPECT_CLOSE(cell[99999], 1e-5, 1e-15);
   EXPECT_CLOSE(total<Random>(cell.values()), 1.0, 1e-9);
-}
-
-TEST(Normalized, DividesByTheTotalOfTheKind) {
-  const std::vector<double> three{1.0, 2.0, 5.0};
-  EXPECT_CLOSE(normalized(weather, three).values(), (std::vector{0.125, 0.25, 0.625}), 1e-15);
-  const std::vector<double> two{4.0, 1.0};
-  EXPECT_CLOSE(normalized(mood, two).values(), (std::vector{1.0, 0.25}), 1e-15);
 }
 
 TEST(Normalized, NeitherOverflowsNorUnderflows) {

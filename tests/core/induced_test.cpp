@@ -30,28 +30,6 @@ Table table(std::size_t rows, std::size_t columns, const std::vector<double>& va
   return result;
 }
 
-TEST(InducedRelation, HasABetaForEveryConditionThatNormalizingDividesBy) {
-  const InducedRelation induced{speed, age, table(2, 2, {0.3, 0.7, 0.9, 0.14}), detail::ByLaw{}};
-  EXPECT_CLOSE(induced.beta(1), 1.04, 1e-15);
-  EXPECT_CLOSE(induced.betas(), (std::vector{1.0, 1.04}), 1e-15);
-  const Relation<Random, Fuzzy> normalized = induced.normalized();
-  EXPECT_CLOSE(normalized.given("old")["fast"], 0.14 / 1.04, 1e-15);
-  EXPECT_CLOSE(normalized.given("young")["fast"], 0.7, 1e-15);
-}
-
-TEST(InducedRelation, ReadAsALikelihoodIsNotDividedByBeta) {
-  const InducedRelation induced{speed, age, table(2, 2, {0.3, 0.7, 0.9, 0.14}), detail::ByLaw{}};
-  const Likelihood<Fuzzy> likelihood = induced.likelihood("fast");
-  EXPECT_CLOSE(likelihood["young"], 0.7, 1e-15);
-  EXPECT_CLOSE(likelihood["old"], 0.14, 1e-15);
-}
-
-TEST(InducedRelation, OfAFuzzyVariableHasTheMaximumAsBeta) {
-  const Induced<Relation<Fuzzy, Random>> induced{age, speed, table(2, 2, {0.25, 0.5, 0.8, 0.4}), detail::ByLaw{}};
-  EXPECT_CLOSE(induced.betas(), (std::vector{0.5, 0.8}), 1e-15);
-  EXPECT_CLOSE(induced.normalized().table().values(), (std::vector{0.5, 1.0, 1.0, 0.5}), 1e-15);
-}
-
 TEST(InducedRelation, WithAnEmptyRowHasNoDistributionReading) {
   const InducedRelation induced{speed, age, table(2, 2, {0.3, 0.7, 0.0, 0.0}), detail::ByLaw{}};
   EXPECT_REFUSED(std::domain_error, ("'speed'", "age", "'old'"), induced.normalized());

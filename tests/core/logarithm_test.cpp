@@ -8,18 +8,6 @@ double combined(const std::vector<double>& log_weights, const std::vector<double
       log_weights.size(), [&](std::size_t i) { return log_weights[i]; }, [&](std::size_t i) { return factors[i]; });
 }
 
-TEST(LogCombine, IsTheLogarithmOfTheSumOrMaximumOfProducts) {
-  const std::vector<double> log_weights{std::log(0.5), std::log(0.25), std::log(0.25)};
-  const std::vector<double> factors{0.2, 0.8, 0.4};  // products 0.1, 0.2, 0.1
-  EXPECT_CLOSE(combined<Sigma>(log_weights, factors), std::log(0.4), 1e-14);
-  EXPECT_CLOSE(combined<Max>(log_weights, factors), std::log(0.2), 1e-14);
-}
-
-TEST(LogCombine, OfOneTermIsThatTerm) {
-  EXPECT_EQ(combined<Sigma>({-3.0}, {1.0}), -3.0);
-  EXPECT_EQ(combined<Max>({-3.0}, {1.0}), -3.0);
-}
-
 TEST(LogCombine, OfNothingIsNothing) {
   EXPECT_EQ(combined<Sigma>({}, {}), log_zero);
   EXPECT_EQ(combined<Sigma>({0.0, -1.0}, {0.0, 0.0}), log_zero);

@@ -6,7 +6,6 @@ const FuzzyVariable age{"age", {"child", "young", "middle", "old"}};
 
 const RandomVariable weather{"weather", {"dry", "wet", "snow"}};
 const Distribution belief{age, {0.2, 1.0, 0.7, 0.1}};
-const Distribution forecast{weather, {0.5, 0.3, 0.2}};
 
 // Each measure is of its own kind.
 template <class Kind>
@@ -65,31 +64,6 @@ TEST(Event, RefusesOperationsWithEventsOfAnotherVariable) {
   EXPECT_INVALID(("measure", "'age'", "'mood'"), possibility(belief, whole_event(mood)));
 }
 
-TEST(Measure, PossibilityIsTheGreatestOfItsOutcomes) {  // Definition 2.4
-  EXPECT_EQ(possibility(belief, Event{age, {"child", "middle", "old"}}), 0.7);
-  EXPECT_EQ(possibility(belief, empty_event(age)), 0.0);
-  EXPECT_EQ(possibility(belief, whole_event(age)), 1.0);
-}
-
-TEST(Measure, ProbabilityIsTheSumOfItsOutcomes) {
-  EXPECT_CLOSE(probability(forecast, Event{weather, {"wet", "snow"}}), 0.5, 1e-15);
-  EXPECT_EQ(probability(forecast, empty_event(weather)), 0.0);
-  EXPECT_EQ(probability(forecast, whole_event(weather)), 1.0);
-}
-
-TEST(Measure, OfGenericCodeIsThatOfTheKind) {
-  EXPECT_EQ(measure(belief, Event{age, {"child", "middle"}}), 0.7);
-  EXPECT_CLOSE(measure(forecast, Event{weather, {"dry", "snow"}}), 0.7, 1e-15);
-}
-
-TEST(Given, ConditionsAPossibilityByDivision) {
-  const Event grown{age, {"middle", "old"}}, old{age, {"old"}};
-  EXPECT_CLOSE(given(belief, grown).values(), (std::vector{0.0, 0.0, 1.0, 1.0 / 7.0}), 1e-15);
-  EXPECT_CLOSE(possibility(given(belief, grown), old), 1.0 / 7.0, 1e-15);
-  EXPECT_CLOSE(necessity(given(belief, grown), ~old), 6.0 / 7.0, 1e-15);
-  EXPECT_EQ(necessity(given(belief, grown), old), 0.0);
-}
-
 TEST(Given, IsExactForEventsOfSubnormalMeasure) {
   const Distribution rare{weather, {1.0, least_subnormal, 3 * least_subnormal}};
   EXPECT_EQ(probability(given(rare, Event{weather, {"wet", "snow"}}), Event{weather, {"snow"}}), 0.75);
@@ -107,14 +81,6 @@ TEST(Given, RefusesAConditionOfMeasureZeroByItsName) {
 using Features = std::set<std::string>;
 const Features man{"dark hair", "reading glasses", "runs daily", "two children"};
 const Features young_features{"dark hair", "runs daily", "student"};
-
-TEST(Compatibility, IsTheShareOfFeaturesThatTheConceptHas) {  // (1)
-  EXPECT_EQ(compatibility(man, young_features), 0.5);
-  EXPECT_EQ(compatibility(man, man), 1.0);
-  EXPECT_EQ(compatibility(man, Features{}), 0.0);
-  EXPECT_EQ(compatibility(Features{"student"}, young_features), 1.0);  // a degree of inclusion, hence not symmetric
-  EXPECT_CLOSE(compatibility(young_features, Features{"student"}), 1.0 / 3.0, 1e-15);
-}
 
 TEST(Compatibility, WeighsFeaturesByTheirMeasure) {
   const auto weight = [](const std::string& feature) { return feature == "two children" ? 5.0 : 1.0; };

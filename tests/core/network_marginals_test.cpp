@@ -2,14 +2,6 @@
 
 namespace network_marginals_test {
 
-TEST(NetworkMarginals, AreTheSingleQueries) {
-  const RelationNetwork random = grid(4);
-  const Evidence evidence{{name(5), "1"}, {name(10), "0"}};
-  expect_single_queries(random, evidence);
-  expect_single_queries(as_fuzzy(random, RatioScale{}), evidence);
-  expect_single_queries(as_fuzzy(random, RatioScale{}, std::vector{name(3), name(8), name(15)}), evidence);
-}
-
 TEST(NetworkMarginals, OfOneVariable) {
   RelationNetwork network;
   const FuzzyVariable a{"a", 3};

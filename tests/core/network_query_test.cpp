@@ -48,31 +48,6 @@ TEST(NetworkQuery, OfAnInnerVariableOfAnotherKindIsInduced) {  // (15), the smal
   EXPECT_CLOSE(given.normalized<Fuzzy>().values(), (std::vector{1.0 / 3.0, 1.0}), 1e-15);
 }
 
-TEST(NetworkQuery, EliminatesInnermostFirstWhereTheOrderMatters) {
-  // max over y of Σ over x, never the other way about: 0.6 · 1 + 0.1 · 0.5 and so on would add the induced numbers.
-  const FuzzyVariable y{"y", 2};
-  const RandomVariable x{"x", 2}, z{"z", 2};
-  RelationNetwork network = network_of(Distribution{y, {1.0, 0.75}}, Relation{x, y, {{0.5, 0.5}, {0.25, 0.75}}});
-  network.declare(z, {y, x}, {{0.1, 0.9}, {0.2, 0.8}, {0.8, 0.2}, {0.4, 0.6}});
-  // max(0.5·0.9 + 0.5·0.8, 0.75 (0.25·0.2 + 0.75·0.6)) against Σ_x max_y = 0.5·0.9 + max(0.4, 0.3375)
-  EXPECT_CLOSE(query(network, {}, {{"z", "1"}}).total().value(), 0.85, 1e-15);
-  // max(0.5·0.1 + 0.5·0.2, 0.75 (0.25·0.8 + 0.75·0.4)) = 0.375; the other order has max(0.05, 0.15) + max(0.1, 0.225)
-  EXPECT_CLOSE(query(network, {}, {{"z", "0"}}).total().value(), 0.375, 1e-15);
-  const NetworkAnswer answer = query(network, {"z"});
-  EXPECT_CLOSE(numbers(answer), (std::vector{0.375, 0.85}), 1e-15);
-  EXPECT_EQ(answer.elimination().order, (std::vector<std::string>{"x", "y"}));
-  EXPECT_TRUE(answer.induced());
-}
-
-TEST(NetworkQuery, TakesLikelihoodsAsEvidenceAndMultipliesThoseOfOneVariable) {
-  const Likelihood twice{mood, {0.2, 0.8}};
-  const auto answer = query(chain(), {"mood"}, Evidence{}.observe(twice).observe(twice));
-  EXPECT_CLOSE(numbers(answer), (std::vector{0.04, 0.64}), 1e-15);
-  const auto both = query(chain(), {"age"}, Evidence{{"speed", "fast"}}.observe(twice));
-  EXPECT_CLOSE(numbers(both), (std::vector{0.56, 0.336, 0.056}), 1e-15);
-  EXPECT_CLOSE(both.normalized(), (std::vector{1.0, 0.6, 0.1}), 1e-15);
-}
-
 TEST(NetworkQuery, OfWhatIsKnownIsNotInduced) {  // speed is random within fuzzy variables, but nothing is left to sum
   const auto answer = query(chain(), {"speed"}, {{"speed", "fast"}});
   EXPECT_FALSE(answer.induced());
@@ -211,19 +186,6 @@ TEST(NetworkMeasure, OfAnEventOfVariablesTogether) {
   EXPECT_CLOSE(probability(query(network, {"a", "b"}), same), 0.125 + 0.75 * 0.875, 1e-15);
 }
 
-TEST(NetworkCompose, AlongAPathIsTheCompositionOfItsRelations) {  // (17)
-  const ComposedRelation speed_given_age = compose(chain(), "age", "speed");
-  EXPECT_TRUE(speed_given_age.induced());
-  const auto relation = speed_given_age.relation<Random, Fuzzy>();
-  ASSERT_TRUE((std::holds_alternative<Induced<Relation<Random, Fuzzy>>>(relation)));
-  const auto expected = compose(speed_given_mood, mood_given_age);
-  const auto& induced = std::get<Induced<Relation<Random, Fuzzy>>>(relation);
-  EXPECT_CLOSE(induced.table().values(), expected.table().values(), 1e-15);
-  EXPECT_CLOSE(induced.betas(), expected.betas(), 1e-15);
-  EXPECT_EQ(induced.from(), age);
-  EXPECT_EQ(induced.to(), speed);
-}
-
 TEST(NetworkCompose, OfOneKindIsARelation) {
   const ComposedRelation itself = compose(chain(), "age", "mood");
   EXPECT_FALSE(itself.induced());
@@ -242,37 +204,12 @@ TEST(NetworkCompose, DoesNotAskThePriorAlongAPath) {
   EXPECT_CLOSE(relation.table().values(), (std::vector{0.75, 0.25, 0.625, 0.375}), 1e-15);
 }
 
-TEST(NetworkCompose, BackwardsIsTheInverseUnderTheMarginal) {  // (43)
-  const RandomVariable a{"a", 2}, b{"b", 3};
-  const Relation b_given_a{b, a, {{0.5, 0.5, 0.0}, {0.25, 0.75, 0.0}}};
-  const Distribution prior{a, {0.25, 0.75}};
-  const RelationNetwork network = network_of(prior, b_given_a);
-  const auto found = compose(network, "b", "a");
-  const auto expected = invert(b_given_a, prior);
-  EXPECT_FALSE(found.induced());
-  EXPECT_CLOSE(found.table().values(), expected.relation.table().values(), 1e-15);
-  EXPECT_EQ(found.unreachable(), expected.unreachable);
-}
-
 TEST(NetworkCompose, OfWhatHasNothingToDoWithEachOtherRepeatsTheMarginal) {
   RelationNetwork network = chain();
   network.declare(Distribution{FuzzyVariable{"moon", 2}, {1.0, 0.25}});
   EXPECT_CLOSE(compose(network, "age", "moon").table().values(), (std::vector{1.0, 0.25, 1.0, 0.25, 1.0, 0.25}), 0.0);
   EXPECT_INVALID(("'age'", "twice"), compose(network, "age", "age"));
   EXPECT_INVALID(("'sun'"), compose(network, "age", "sun"));
-}
-
-TEST(Explanation, EliminatesEveryKindByTheMaximum) {
-  const Explanation best = most_likely_explanation(chain());
-  // 0.9 of (middle, calm, slow) is the greatest number of all
-  EXPECT_EQ(best.outcomes, (std::vector<std::size_t>{1, 0, 0}));
-  EXPECT_EQ(best["age"], "middle");
-  EXPECT_EQ(best["speed"], "slow");
-  EXPECT_CLOSE(best.log_value, std::log(0.9), 1e-15);
-  const Explanation fast = most_likely_explanation(chain(), {{"speed", "fast"}});
-  EXPECT_EQ(fast.outcomes, (std::vector<std::size_t>{0, 1, 1}));
-  EXPECT_CLOSE(fast.log_value, std::log(0.7), 1e-15);
-  EXPECT_INVALID(("'sped'"), fast["sped"]);
 }
 
 }  // namespace network_query_test

@@ -53,11 +53,7 @@ concept HasBelief = requires {
 static_assert(HasLogs<Likelihood<Fuzzy>> && !HasLogs<Likelihood<Ordinal>>);
 static_assert(HasBelief<Fuzzy> && !HasBelief<Ordinal>);
 
-const OrdinalVariable risk{"risk", {"low", "high"}};
-
 const OrdinalVariable age{"age", {"young", "middle", "old"}};
-
-Relation<Ordinal, Ordinal> risk_given_age() { return {risk, age, {{0.3, 1.0}, {1.0, 0.6}, {1.0, 0.2}}}; }
 
 TEST(Ordinal, DistributionsHaveMaximumOne) {
   EXPECT_EQ((Distribution{age, {0.2, 1.0, 0.4}})["old"], 0.4);
@@ -65,32 +61,10 @@ TEST(Ordinal, DistributionsHaveMaximumOne) {
   EXPECT_EQ(most_likely(Distribution{age, {0.2, 1.0, 1.0}}), "middle");
 }
 
-TEST(Ordinal, KnowingNothingIsOneEverywhere) {
-  EXPECT_CLOSE(uninformative(age).values(), (std::vector{1.0, 1.0, 1.0}), 0.0);
-}
-
 TEST(Ordinal, NormalizesByResiduum) {  // only what is the maximum becomes one, the rest is left alone
   EXPECT_CLOSE(normalized(age, std::vector{0.25, 0.5, 0.5}).values(), (std::vector{0.25, 1.0, 1.0}), 0.0);
   EXPECT_INVALID(("'age'", "zero"), normalized(age, std::vector{0.0, 0.0, 0.0}));
   EXPECT_INVALID(("'middle'", "2"), normalized(age, std::vector{0.0, 2.0, 0.0}));
-}
-
-TEST(Ordinal, ComposesByMaxMin) {
-  const OrdinalVariable price{"price", {"cheap", "dear"}};
-  const Relation price_given_risk{price, risk, {{1.0, 0.4}, {0.5, 1.0}}};
-  const Relation composed = compose(price_given_risk, risk_given_age());
-  static_assert(std::same_as<decltype(composed), const Relation<Ordinal, Ordinal>>);
-  EXPECT_CLOSE(composed.table().values(), (std::vector{0.5, 1.0, 1.0, 0.6, 1.0, 0.4}), 0.0);
-  const Distribution prices = compose(composed, Distribution{age, {0.3, 0.7, 1.0}});
-  EXPECT_CLOSE(prices.values(), (std::vector{1.0, 0.6}), 0.0);
-}
-
-TEST(Ordinal, UpdateCombinesByMinimumAndConditionsByResiduum) {
-  const Distribution prior{age, {0.5, 1.0, 0.8}};
-  const Distribution posterior = update(prior, Likelihood{age, {1.0, 0.3, 0.6}});
-  EXPECT_CLOSE(posterior.values(), (std::vector{0.5, 0.3, 1.0}), 0.0);
-  const Distribution by_report = update(prior, risk_given_age().likelihood("high"));
-  EXPECT_CLOSE(by_report.values(), (std::vector{0.5, 1.0, 0.2}), 0.0);
 }
 
 TEST(Ordinal, UpdateByEvidenceThatExcludesEverythingIsADomainError) {
@@ -105,16 +79,6 @@ TEST(Ordinal, LikelihoodsAreKeptUnrounded) {
   EXPECT_EQ(likelihood.number(1), 0.3);
   EXPECT_EQ(Likelihood{age}[2], 1.0);
   EXPECT_INVALID(("'age'", "'middle'", "1.5"), Likelihood(age, {0.1, 1.5, 0.2}));
-}
-
-TEST(Ordinal, InvertsByResiduumPerColumn) {
-  const OrdinalVariable third{"third", {"a", "b", "c"}};
-  const Relation relation{third, age, {{0.3, 1.0, 0.0}, {1.0, 0.6, 0.0}, {1.0, 0.2, 0.0}}};
-  const auto inverse = invert(relation, Distribution{age, {1.0, 0.5, 0.8}});
-  EXPECT_CLOSE(inverse.relation.row(0), (std::vector{0.3, 0.5, 1.0}), 0.0);
-  EXPECT_CLOSE(inverse.relation.row(1), (std::vector{1.0, 0.5, 0.2}), 0.0);
-  EXPECT_CLOSE(inverse.relation.row(2), (std::vector{1.0, 1.0, 1.0}), 0.0);  // nothing reaches c
-  EXPECT_EQ(inverse.unreachable, (std::vector<std::size_t>{2}));
 }
 
 }  // namespace ordinal_test

@@ -47,6 +47,8 @@ concept Comparable = requires(const A& a, const B& b) {
 static_assert(Comparable<FuzzyVariable, FuzzyVariable>);
 static_assert(!Comparable<RandomVariable, FuzzyVariable> && !Comparable<FuzzyVariable, RandomVariable>);
 static_assert(!Comparable<OrdinalVariable, FuzzyVariable>);
+static_assert(!std::convertible_to<RandomVariable, FuzzyVariable> &&
+              !std::convertible_to<FuzzyVariable, RandomVariable>);
 static_assert(!Comparable<Distribution<Random>, Distribution<Fuzzy>>);
 
 TEST(SafeToHold, ARangeForOverATemporarysNumbersSeesThem) {

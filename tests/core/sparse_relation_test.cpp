@@ -210,50 +210,6 @@ PROPERTY(SparseRelation, OfMixedKindsIsInducedAndNormalizedAsADenseOne) {
   RC_ASSERT(dense_rows(induced.normalized()) == dense_rows(expected.normalized()));
 }
 
-// 10⁵ × 10⁵ with ten numbers a row: as a table it would have 10¹⁰.
-
-Relation<Random, Random> large_relation(const RandomVariable& variable, std::uint64_t seed) {
-  std::mt19937_64 generator(seed);
-  SparseRows rows(variable.size());
-  for (std::size_t i = 0; i < variable.size(); ++i) {
-    std::vector<std::size_t> columns(10);
-    for (std::size_t& column : columns) column = generator() % variable.size();
-    std::sort(columns.begin(), columns.end());
-    columns.erase(std::unique(columns.begin(), columns.end()), columns.end());
-    for (const std::size_t column : columns) rows.append_entry(column, 1.0 / static_cast<double>(columns.size()));
-    rows.end_row();
-  }
-  return {variable, variable, std::move(rows)};
-}
-
-TEST(SparseRelation, OfAHundredThousandOutcomesComposesAndInverts) {
-  const RandomVariable large{"large", 100000};
-  const Relation a = large_relation(large, 1), b = large_relation(large, 2);
-  const Relation composed = compose(a, b);
-  EXPECT_TRUE(is_stored_as<SparseRows>(composed));
-  // One row by its definition.
-  for (const std::size_t from : {std::size_t{0}, std::size_t{777}, std::size_t{99999}}) {
-    std::vector<double> row(large.size(), 0.0);
-    b.for_each(from, [&](std::size_t m, double weight) {
-      a.for_each(m, [&](std::size_t to, double value) { row[to] += weight * value; });
-    });
-    EXPECT_CLOSE(composed.given(from).values(), row, 0.0);
-  }
-  const Distribution prior = uninformative(large);
-  const Distribution twice = compose(a, compose(b, prior));
-  EXPECT_CLOSE(compose(composed, prior).values(), twice.values(), 1e-15);
-  const auto inverse = invert(a, prior);
-  EXPECT_FALSE(is_stored_as<Table>(inverse.relation));
-  std::size_t from = 0;
-  double value = 0.0;
-  a.for_each(12345, [&](std::size_t to, double p) { from = to, value = p; });
-  // A uniform prior cancels: the inverse is the column divided by its sum.
-  double sum = 0.0;
-  for (std::size_t i = 0; i < large.size(); ++i) sum += a(i, from);
-  EXPECT_CLOSE(inverse.relation(from, 12345), value / sum, 1e-14);
-  EXPECT_EQ(most_likely(update(prior, a.likelihood(from))), most_likely(inverse.relation.given(from)));
-}
-
 TEST(SparseRelation, WithManyUnreachableOutcomesInvertsWithoutATable) {
   const RandomVariable large{"large", 100000};
   SparseRows rows(large.size());
@@ -310,26 +266,6 @@ TEST(SparseRelation, IsWrittenALinePerRow) {
             "cell given cell = d: d 1\n"
             "cell given mood = calm: a 0.75, b 0.25, c 0, d 0\n"
             "cell given mood = wild: a 0, b 0, c 0, d 1\n");
-}
-
-TEST(SparseRelation, OfAMillionOutcomesIsTransformedWithoutATable) {
-  const RandomVariable million{"million", 1000000};
-  SparseRows rows;
-  for (std::size_t i = 0; i < million.size(); ++i) rows.append({{i / 2, 0.75}, {i / 2 + 500000, 0.25}});
-  const Relation possible = to_possibility(Relation<Random, Random>{million, million, std::move(rows)}, DuboisPrade{});
-  EXPECT_EQ(possible(999999, 499999), 1.0);
-  EXPECT_EQ(possible(999999, 999999), 0.25);
-}
-
-TEST(SparseRelation, IsDeclaredInANetworkAsItsTable) {
-  const RandomVariable next{"next", {"a", "b", "c", "d"}};
-  RelationNetwork network;
-  network.declare(uninformative(cell));
-  network.declare(
-      Relation<Random, Random>{next, cell, SparseRows{{{0, 0.75}, {3, 0.25}}, {{1, 1.0}}, {{0, 1.0}}, {{3, 1.0}}}});
-  EXPECT_EQ(network[1].table()(0, 3), 0.25);
-  EXPECT_EQ(network[1].table()(0, 1), 0.0);
-  EXPECT_EQ(network[1].table()(3, 3), 1.0);
 }
 
 TEST(SparseRelation, SaysThatItHasNoTable) {

@@ -23,15 +23,6 @@ TEST(AsFuzzy, OfAVariableWithoutLabelsHasNone) {
   EXPECT_EQ(as_fuzzy(RandomVariable("cell", 100000)), FuzzyVariable("cell", 100000));
 }
 
-TEST(RatioScale, DividesByTheGreatestAndByTheSum) {  // (34), (35)
-  const Distribution<Fuzzy> possible = to_possibility(forecast, RatioScale{});
-  EXPECT_EQ(possible.variable(), as_fuzzy(weather));
-  EXPECT_CLOSE(possible.values(), (std::vector{1.0, 0.6, 0.4}), 1e-15);
-  const Distribution<Random> back = to_probability(possible, RatioScale{});
-  EXPECT_EQ(back.variable(), weather);
-  EXPECT_CLOSE(back.values(), forecast.values(), 1e-15);
-}
-
 TEST(RatioScale, RefusesAnExponentThatIsNotPositive) {
   for (const double exponent : {0.0, -1.0, infinity, not_a_number}) {
     EXPECT_INVALID(("RatioScale", "exponent", std::to_string(exponent)),
@@ -61,17 +52,6 @@ TEST(DuboisPrade, TakesWhatRoundingAlonePartsForATie) {
   }
 }
 
-TEST(DuboisPradeSandri, GoesBackByThePignisticProbability) {
-  const FuzzyVariable mood{"mood", {"calm", "tense", "wild"}};
-  // Cuts: three outcomes share .2, two share the next .4, one takes the last .4.
-  EXPECT_CLOSE(to_probability(Distribution{mood, {0.6, 1.0, 0.2}}, DuboisPradeSandri{}).values(),
-               (std::vector{0.2 / 3 + 0.2, 0.2 / 3 + 0.2 + 0.4, 0.2 / 3}), 1e-15);
-  EXPECT_CLOSE(to_probability(Distribution{mood, {1.0, 1.0, 0.0}}, DuboisPradeSandri{}).values(),
-               (std::vector{0.5, 0.5, 0.0}), 0.0);
-  EXPECT_CLOSE(to_probability(to_possibility(forecast, DuboisPradeSandri{}), DuboisPradeSandri{}).values(),
-               forecast.values(), 1e-15);
-}
-
 TEST(Transform, KeepsSubnormalProbabilitiesApart) {
   const Distribution rare{weather, {1.0, least_subnormal, 3 * least_subnormal}};
   EXPECT_CLOSE(to_possibility(rare, DuboisPrade{}).values(), (std::vector{1.0, least_subnormal, 4 * least_subnormal}),
@@ -79,18 +59,6 @@ TEST(Transform, KeepsSubnormalProbabilitiesApart) {
   EXPECT_EQ(to_possibility(rare, DuboisPrade{})[2], 4 * least_subnormal);
   EXPECT_EQ(to_possibility(rare, RatioScale{})[1], least_subnormal);
   EXPECT_EQ(to_possibility(rare, DuboisPradeSandri{})[1], 3 * least_subnormal);
-}
-
-TEST(Transform, OfARelationIsThatOfItsRows) {
-  const FuzzyVariable season{"season", {"summer", "winter"}};
-  const Relation weather_given_season{weather, season, {{0.5, 0.5, 0.0}, {0.2, 0.3, 0.5}}};
-  const Relation<Fuzzy, Fuzzy> possible = to_possibility(weather_given_season, DuboisPrade{});
-  EXPECT_EQ(possible.to(), as_fuzzy(weather));
-  EXPECT_EQ(possible.from(), season);
-  EXPECT_CLOSE(possible.table().values(), (std::vector{1.0, 1.0, 0.0, 0.2, 0.5, 1.0}), 1e-15);
-  const Relation<Random, Fuzzy> pignistic = to_probability(possible, DuboisPradeSandri{});
-  EXPECT_EQ(pignistic.to(), weather);
-  EXPECT_CLOSE(pignistic.row(1), (std::vector{0.2 / 3, 0.2 / 3 + 0.15, 0.2 / 3 + 0.65}), 1e-15);
 }
 
 TEST(Transform, OfATransitionTakesItsConditionAlong) {  // (49) as (50)

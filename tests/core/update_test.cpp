@@ -14,18 +14,6 @@ const RandomVariable weather{"weather", {"dry", "wet", "snow"}};
 
 const FuzzyVariable mood{"mood", {"calm", "wild"}};
 
-TEST(Update, OfABeliefReturnsTheLogarithmOfTheEvidence) {
-  const Belief prior{Distribution{weather, {0.5, 0.25, 0.25}}};
-  Belief posterior = prior;
-  EXPECT_CLOSE(update(prior, Likelihood{weather, {0.1, 0.4, 0.2}}, posterior), std::log(0.2), 1e-14);
-  EXPECT_CLOSE(posterior.distribution().values(), (std::vector{0.25, 0.5, 0.25}), 1e-14);
-}
-
-TEST(Update, OfASingleOutcomeStaysCertain) {
-  const FuzzyVariable one{"one", 1};
-  EXPECT_EQ(update(uninformative(one), Likelihood{one, {1e-300}})[0], 1.0);
-}
-
 TEST(Update, ByEvidenceThatExcludesEverythingIsADomainErrorAndChangesNothing) {
   const Distribution prior{weather, {0.5, 0.5, 0.0}};
   const Likelihood impossible{weather, {0.0, 0.0, 1.0}};
@@ -57,33 +45,6 @@ TEST(Update, ByAnOutlierSoFarThatEveryLikelihoodUnderflowsIsExact) {
   const double e = std::exp(1.0);
   EXPECT_CLOSE(update(uninformative(weather), outlier).values(), (std::vector{1.0 / (1.0 + e), e / (1.0 + e), 0.0}),
                1e-12);
-}
-
-/// Sequential = batch over 10⁵ reports: the sum of the logarithms, taken at once.
-template <class Kind>
-void expect_sequential_is_batch(const Variable<Kind>& variable) {
-  std::mt19937_64 generator(1);
-  std::uniform_real_distribution<double> uniform(0.05, 1.0);
-  Belief belief{uninformative(variable)};
-  std::vector<long double> sums(variable.size(), 0.0L);
-  Likelihood report{variable};
-  for (int k = 0; k < 100000; ++k) {
-    for (std::size_t i = 0; i < variable.size(); ++i) {
-      report.set_log(i, std::log(uniform(generator)) * (i == 1 ? 2.0 : 1.0));  // one falls behind by e^−100000
-      sums[i] += report.log(i);
-    }
-    update(belief, report, belief);
-  }
-  Likelihood batch{variable};
-  for (std::size_t i = 0; i < variable.size(); ++i) batch.set_log(i, static_cast<double>(sums[i]));
-  const Belief expected = update(Belief{uninformative(variable)}, batch);
-  EXPECT_LT(expected.log(1), -50000.0);
-  EXPECT_CLOSE(belief.logs(), expected.logs(), 1e-9);
-}
-
-TEST(Update, InSequenceIsTheBatchOverManyReports) {
-  expect_sequential_is_batch(weather);
-  expect_sequential_is_batch(mood);
 }
 
 TEST(Update, BringsBackAnOutcomeThatWasAlmostExcluded) {

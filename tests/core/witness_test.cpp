@@ -12,19 +12,8 @@ static_assert(!Witnesses<Relation<Random, Random>, Relation<Random, Fuzzy>>);  /
 
 const FuzzyVariable age{"age", {"young", "middle", "old"}};
 const FuzzyVariable mood{"mood", {"calm", "wild"}};
-const FuzzyVariable name{"name", {"ann", "bob"}};
 
 const Relation mood_given_age{mood, age, {{0.5, 1.0}, {1.0, 0.5}, {1.0, 0.25}}};
-const Relation age_given_name{age, name, {{1.0, 0.5, 0.5}, {0.5, 1.0, 1.0}}};
-
-TEST(Witness, SaysWhichIntermediateValueWon) {
-  const auto composed = compose_with_witness(mood_given_age, age_given_name);
-  EXPECT_CLOSE(composed.relation().table().values(), (std::vector{0.5, 1.0, 1.0, 0.5}), 0.0);
-  EXPECT_EQ(composed.winner(0, 1), 0U);  // Ann may be wild because she may be young
-  EXPECT_EQ(composed.winner(1, 0), 1U);  // middle and old tie: the first
-  EXPECT_EQ(composed.winner(0, 0), 0U);  // all three tie
-  EXPECT_EQ(composed.winner(1, 1), 0U);  // young and middle tie
-}
 
 TEST(Witness, ThroughAFuzzyVariableBetweenRandomOnesIsOfWhatIsInduced) {  // (17)
   const RandomVariable speed{"speed", {"slow", "fast"}};
