@@ -73,6 +73,13 @@ inline Rows any_normalized_rows(By by, std::size_t rows, std::size_t columns) {
     return result;
   });
 }
+inline Rows any_unit_rows(std::size_t rows, std::size_t columns) {
+  return any([=](rc::Random& random) {
+    Rows result(rows);
+    for (Numbers& row : result) row = unit_numbers(random, columns);
+    return result;
+  });
+}
 
 /// 1 to 6 outcomes: tables of one number up to more than Table keeps inline.
 inline std::size_t any_size() { return *rc::gen::inRange<std::size_t>(1, 7); }
@@ -123,6 +130,16 @@ inline Table table_of(const Rows& rows) {
 inline void require_near(const Rows& found, const Rows& expected) {
   RC_ASSERT(found.size() == expected.size());
   for (std::size_t i = 0; i < found.size(); ++i) require_near(found[i], expected[i]);
+}
+
+/// A generated order of n outcomes.
+inline std::vector<std::size_t> any_order(std::size_t n) {
+  return any([n](rc::Random& random) {
+    std::vector<std::size_t> order(n);
+    for (std::size_t i = 0; i < n; ++i) order[i] = i;
+    for (std::size_t i = n; i > 1; --i) std::swap(order[i - 1], order[random.next() % i]);
+    return order;
+  });
 }
 
 }  // namespace sigmax::laws
