@@ -1,7 +1,9 @@
+#include <map>
+#include <set>
+
 #include <sigmax/recognition/decision.hpp>
 #include <sigmax/recognition/explanation.hpp>
 
-#include "recognition_demo/column_reader.hpp"
 #include "recognition_demo/learned_model.hpp"
 #include "recognition_demo/subcommands.hpp"
 #include "support/progress.hpp"
@@ -23,11 +25,9 @@ struct Tally {
   std::string name;
   std::vector<std::size_t> decided;  ///< by class
   std::vector<double> recognised;    ///< of the decided rows of a class
-  Surplus surplus;
   std::size_t rejected = 0;
   std::size_t judged = 0;    ///< decided rows whose class is known
   std::size_t excluded = 0;  ///< rows that excluded every class
-  RunningMean loss{};        ///< −log of the probability of a class that is known, of a classifier with probabilities
 
   std::optional<double> accuracy() const {
     if (judged == 0) return std::nullopt;
@@ -81,64 +81,37 @@ class RowReader {
   std::size_t unseen_cells() const { return unseen_cells_; }
   std::size_t far_cells() const { return far_cells_; }
 
-  /// Tells of both, if the numbers are more than long tails have. Says of which columns more than a fifth of the
-  /// numbers is on one side of all that the model was learned from; of few it needs more, for then it may be chance.
-  /// And which columns have no value in any row.
-  void say_outside(Result& result) const {
-    constexpr unsigned enough = 20;
+  /// Says which cells count as missing, and of which columns the numbers seem to be in another unit than those that
+  /// were learned: where one bin has 60 % more of them, of 20 or more, else where some are far from these.
+  void say_otherwise(Result& result) const {
+    constexpr double enough = 20.0, much = 0.6;
     constexpr std::size_t one_in = 200;
     if (unseen_cells_ > 0)
       result.say("\n{} as missing, since the model does not know {}: {}",
                  unseen_cells_ == 1 ? "1 cell counts" : fmt::format("{} cells count", unseen_cells_),
                  unseen_cells_ == 1 ? "it" : "them; the first", first_unseen_);
-    if (far_cells_ > 0 && static_cast<double>(one_in * far_cells_) >= sum_of(columns_, &Column::all))
-      result.say("\n{} far from those that the model was learned from: are they in the same unit? The first: {}",
-                 far_cells_ == 1 ? "1 number is" : fmt::format("{} numbers are", far_cells_), first_far_);
-    std::array<std::size_t, 3> columns{};  // with numbers, and with more of them below, and above, than by chance
     for (std::size_t i = 0; i < columns_.size(); ++i) {
       const FeatureCode& feature = model_.features[i];
-      double learned = 0.0;
+      const Column& column = columns_[i];
+      const double all = sum_of(column.binned);
+      std::vector<double> learned(column.binned.size());
       for (std::size_t c = 0; c < classes_.size(); ++c)
-        for (const double count : model_.counts.of(i, c)) learned += count;
-      const auto& [index, filled, all, below, above, least, binned] = columns_[i];
-      if (filled == 0 && rows_ > 1 && learned > 0.0)
-        result.say("\nColumn {} has no value in any of {} rows", in_quotes(feature.name), rows_);
-      // What moves within the range that was learned crowds in one of the bins.
-      for (std::size_t bin = 0; bin < binned.size() && all >= enough; ++bin) {
-        double usual = 0.0;
-        for (std::size_t c = 0; c < classes_.size(); ++c) usual += model_.counts.of(i, c)[bin] / learned;
-        if (const double share = binned[bin] / static_cast<double>(all); share > usual + 0.6)
-          result.say(
-              "\nColumn {}: {:.0f} % of {} numbers are {}, as were {:.0f} % of those that were learned: are they in "
-              "the same unit?",
-              in_quotes(feature.name), 100.0 * share, all, feature.bins->labels()[bin], 100.0 * usual);
-      }
-      const auto outside = std::max(below, above);
-      const auto n = static_cast<double>(all);
-      const bool many = all >= enough && static_cast<double>(outside) / n > std::max(0.2, enough / learned);
-      const auto is_no_chance = [&](std::size_t some) {
-        return static_cast<double>(some) * std::log(n / (n + learned)) < std::log(1e-3);
-      };
-      if (all >= enough) ++columns[0];
-      if (below > 4 && least.size() == 1 && *least.begin() < 0.0 && feature.least >= 0.0)
+        for (std::size_t bin = 0; bin < learned.size(); ++bin) learned[bin] += model_.counts.of(i, c)[bin];
+      std::size_t bin = 0;
+      const auto share = [bin = &bin](const std::vector<double>& counts) { return counts[*bin] / sum_of(counts); };
+      while (bin < learned.size() && !(all >= enough && share(column.binned) > share(learned) + much)) ++bin;
+      if (bin < learned.size())
         result.say(
-            "\nColumn {}: {} numbers are {}, and none that was learned is below 0; if that stands for no value, empty "
-            "those cells",
-            in_quotes(feature.name), below, shortest(*least.begin()));
-      if (all >= enough && !many) columns[1] += is_no_chance(below), columns[2] += is_no_chance(above);
-      // That the first of all numbers in order are these has the chance n! m!/(n + m)!.
-      const double log_chance = std::lgamma(n + 1.0) + std::lgamma(learned + 1.0) - std::lgamma(n + learned + 1.0);
-      const bool all_of_few = all < enough && all > 0 && outside == all && log_chance < std::log(1e-4);
-      if (!many && !all_of_few) continue;
-      result.say("\nColumn {}: {} of {} numbers are {} that was learned, {}: are they in the same unit?",
-                 in_quotes(feature.name), outside, all, below > above ? "below the least" : "above the greatest",
-                 shortest(below > above ? feature.least : feature.greatest));
-      result.fact({"numbers_outside_those_learned_from", feature.name}, outside);
+            "\nColumn {}: {:.0f} % of {} numbers are {}, {:.0f} % of those learned from; write them in the same "
+            "unit",
+            in_quotes(feature.name), 100.0 * share(column.binned), all, feature.bins->labels()[bin],
+            100.0 * share(learned));
+      else if (column.far > 0 && static_cast<double>(one_in * column.far) >= all)
+        result.say("\n{} far from those learned from; write them in the same unit. The first: {}",
+                   column.far == 1 ? "1 number is" : fmt::format("{} numbers are", column.far), column.first_far);
+      if (column.filled == 0 && rows_ > 1)
+        result.say("\nColumn {} has no value in any of {} rows", in_quotes(feature.name), rows_);
     }
-    for (const std::size_t side : {1U, 2U})
-      if (columns[side] > 2 && 2 * columns[side] > columns[0])
-        result.say("\nIn {} of {} columns of numbers some are {} that was learned: are they counted alike?",
-                   columns[side], columns[0], side == 1 ? "below the least" : "above the greatest");
   }
 
  private:
@@ -173,29 +146,27 @@ class RowReader {
     const FeatureCode& feature = model_.features[i];
     Column& column = columns_[i];
     const std::string_view cell = trimmed(row[column.index]);
-    if (feature.bins) {
-      if (missing_.among_numbers(cell)) return missing;
-      if (const auto number = parse_number(cell)) {
-        ++column.all, column.above += *number > feature.greatest ? 1U : 0U;
-        if (*number < feature.least) {
-          ++column.below;
-          if (column.least.size() < 2) column.least.insert(*number);
-        }
-        if (is_far(*number, feature) && far_cells_++ == 0)
-          first_far_ =
-              row.error(column.index, feature.least <= feature.greatest
-                                          ? fmt::format("a number as those learned from, which are from {} to {}",
-                                                        shortest(feature.least), shortest(feature.greatest))
-                                          : "a number nearer to those learned from")
-                  .what();
-        const std::size_t bin = feature.bins->bin(*number);
-        ++column.binned[bin];
-        return bin;
-      }
+    if (!feature.bins)
+      return missing_(cell) ? feature.reading(nan)
+                            : place(row, column.index, feature.values, "a value that the model knows: ");
+    if (missing_.among_numbers(cell)) return feature.reading(nan);
+    const auto number = parse_number(cell);
+    if (!number)
       return unseen(row, column.index, "a finite number with a decimal point",
                     has_decimal_comma(cell) ? "write a decimal comma as a point" : remedy);
+    if (is_far(*number, feature)) {
+      ++far_cells_;
+      if (column.far++ == 0)
+        column.first_far =
+            row.error(column.index, feature.least <= feature.greatest
+                                        ? fmt::format("a number from {} to {}, as those learned from",
+                                                      shortest(feature.least), shortest(feature.greatest))
+                                        : "a number nearer to those learned from")
+                .what();
     }
-    return missing_(cell) ? missing : place(row, column.index, feature.values, "a value that the model knows: ");
+    const std::size_t bin = feature.bins->bin(*number);
+    ++column.binned[bin];
+    return bin;
   }
 
   /// Where a cell is among names.
@@ -222,14 +193,14 @@ class RowReader {
   std::vector<std::string> classes_;
   struct Column {
     std::size_t index, filled = 0;
-    std::size_t all = 0, below = 0, above = 0;  // numbers, and those beside what was learned from
-    std::set<double> least{};                   // of those below, the first two that differ
-    std::vector<double> binned;                 // numbers by bin
+    std::vector<double> binned;  // numbers by bin
+    std::size_t far = 0;
+    std::string first_far{};
   };
   std::vector<Column> columns_;
   std::size_t rows_ = 0;
   std::size_t unseen_cells_ = 0, far_cells_ = 0;
-  std::string first_unseen_, first_far_;
+  std::string first_unseen_;
 };
 
 std::string number(double value) {
@@ -261,12 +232,6 @@ std::optional<ResultTable> explanation(const Contestant& contestant, const Readi
   });
 }
 
-/// Whether a sigma-max classifier is the max classifier beside it.
-bool repeats_another(const Contestant& contestant, const std::vector<Contestant>& all, const LearningOptions& options) {
-  return options.misread == 0.0 &&
-         std::ranges::any_of(all, [&](const Contestant& other) { return contestant.name == "sigma-" + other.name; });
-}
-
 /// The rows of a file, classified one after the other.
 struct Classified {
   std::size_t rows = 0;
@@ -283,16 +248,12 @@ Classified classify_all(const ClassifyOptions& options, const LearnedModel& mode
                                     Tally& tally, ShownRow* show) {
     const Decision decision = decide(belief);
     const bool rejected = decision.margin < options.least_margin;
-    if constexpr (std::same_as<Kind, Random>)
-      if (truth) tally.loss.add(-std::log(std::max(belief[*truth], std::numeric_limits<double>::min())));
     if (rejected) {
       ++tally.rejected;
     } else {
       ++tally.decided[decision.pattern];
       if (truth) ++tally.judged;
       if (truth == decision.pattern) ++tally.recognised[*truth];
-      if (truth)
-        tally.surplus[decision.pattern].add(belief[decision.pattern] - (truth == decision.pattern ? 1.0 : 0.0));
     }
     if (show)
       show->decisions.push_back(fmt::format("{} ({} {:.3f}{})", rejected ? "rejected" : pattern.label(decision.pattern),
@@ -308,8 +269,7 @@ Classified classify_all(const ClassifyOptions& options, const LearnedModel& mode
   Classified result;
   result.rows_of_class.assign(pattern.size(), 0);
   for (const Contestant& one : all)
-    result.tallies.push_back(
-        {one.name, result.rows_of_class, std::vector<double>(pattern.size(), 0.0), Surplus(pattern.size())});
+    result.tallies.push_back({one.name, result.rows_of_class, std::vector<double>(pattern.size(), 0.0)});
   Progress progress("classifying", reader.bytes_total().value_or(0), options.output.quiet || !reader.bytes_total());
   for (CsvRow row; reader.next(row); ++result.rows) {
     const Readings report = rows.readings(row);
@@ -407,11 +367,25 @@ void fill(Report& page, const ClassifyOptions& options, const LearnedModel& mode
   page.last = relation_maps(learned_relations(model.counts, model.options.smoothing), 6);
 }
 
+/// Says which classes no row was recognised of, and by whom.
+void say_unrecognised(const std::vector<std::string>& classes, const Classified& found, Result& result) {
+  std::map<std::string, std::vector<std::string>> classifiers_of;
+  for (const Tally& tally : found.tallies) {
+    std::vector<std::string> never;
+    for (std::size_t c = 0; c < classes.size(); ++c)
+      if (const std::size_t rows = found.rows_of_class[c]; rows > 0 && tally.recognised[c] == 0.0)
+        never.push_back(fmt::format("{} ({} rows)", classes[c], rows));
+    if (!never.empty()) classifiers_of[listed(never, 12)].push_back(tally.name);
+  }
+  for (const auto& [never, names] : classifiers_of)
+    result.say("Not one row was recognised of {} by {}", never,
+               names.size() == found.tallies.size() ? "any classifier" : fmt::format("{}", fmt::join(names, "; ")));
+}
+
 /// Says if the rows are right less often than those that were learned were when left out, class by class, since there
-/// may be more rows of some; or much more often.
-void say_otherwise(const LearnedModel& model, const Classified& found, Result& result) {
-  constexpr double few = 5.0, few_learned = 10.0;
-  constexpr double errors = 3.5, less = 0.05, more = 0.15;
+/// may be more rows of some.
+void say_swapped(const LearnedModel& model, const Classified& found, Result& result) {
+  constexpr double few = 5.0, few_learned = 10.0, errors = 3.5, less = 0.05;
   const auto sigma = std::ranges::find(found.tallies, kind_names.front(), &Tally::name);
   if (sigma == found.tallies.end() || model.right.empty() || sigma->rejected > 0) return;
   RunningMean here, there;
@@ -426,18 +400,11 @@ void say_otherwise(const LearnedModel& model, const Classified& found, Result& r
   }
   if (here.count() == 0) return;
   const double lower = there.mean() - here.mean();
-  const double sure = errors * std::sqrt(variance) / static_cast<double>(here.count());
-  const auto say = [&](bool holds, std::string_view what) {
-    if (holds)
-      result.say(
-          "{:.1f} % of the rows of a class are right by sigma on the average, where {:.1f} % of those that were "
-          "learned were when left out: {}",
-          100.0 * here.mean(), 100.0 * there.mean(), what);
-  };
-  say(lower > std::max(less, sure),
-      "see whether classes and columns are written, coded and measured as there, or rows are of another kind, or "
-      "those that were learned were copies, or several of one thing (evaluate --groups)");
-  say(-lower > std::max(more, sure), "if they are among those learned, their share is too good for others");
+  if (lower > std::max(less, errors * std::sqrt(variance) / static_cast<double>(here.count())))
+    result.say(
+        "Sigma is right in {:.1f} % of the rows of a class on average, {:.1f} % when those learned from were left out: "
+        "labels or columns are swapped, or the rows have drifted; compare them with those learned from",
+        100.0 * here.mean(), 100.0 * there.mean());
 }
 
 void run_classify(const ClassifyOptions& options) {
@@ -459,36 +426,22 @@ void run_classify(const ClassifyOptions& options) {
 
   Result result = result_of_contest("Classes of " + options.file, options.output);
   result.say("{}: {} rows, by {}", reader.file(), found.rows, options.model);
-  rows.say_outside(result);
+  rows.say_otherwise(result);
   if (!found.shown.empty()) result.add(shown_table(model.label, rows.has_truth(), all, found.shown), {});
   result.add(totals_table(pattern, rows.has_truth(), found), {});
   for (const Tally& tally : found.tallies)
     if (tally.excluded > 0)
       result.say("{}: {} rows excluded every class and were judged by the prior", tally.name, tally.excluded);
-  const auto recognised = each(found.tallies, [](const Tally& one) {
-    return Recognised{one.name, one.recognised, one.rejected == 0 ? one.accuracy() : std::nullopt};
-  });
-  say_unrecognised(labels_of(pattern), found.rows_of_class, recognised, result);
-  say_beaten(labels_of(pattern), found.rows_of_class, recognised, result);
-  for (const Tally& tally : found.tallies)
-    if (tally.loss.count() > 0 && tally.judged > 0)
-      say_miscalibrated(tally.name, tally.loss.mean(), tally.surplus, labels_of(pattern), found.rows_of_class,
-                        ", as where several columns tell the same, the model's classes have other shares than these "
-                        "rows, or it was learned from few rows",
-                        result);
-  say_otherwise(model, found, result);
+  say_unrecognised(labels_of(pattern), found, result);
+  say_swapped(model, found, result);
   if (options.explain)
     for (const ShownRow& row : found.shown) {
       result.text += fmt::format("\nline {}\n", row.line);
       for (const Contestant& contestant : all)
-        if (repeats_another(contestant, all, model.options))
-          continue;
-        else if (const auto table = explanation(contestant, row.readings))
+        if (const auto table = explanation(contestant, row.readings))
           result.add(*table, {});
         else
           result.text += fmt::format("\n{}: the readings exclude every class\n", contestant.name);
-      if (std::ranges::any_of(all, [&](const auto& each) { return repeats_another(each, all, model.options); }))
-        result.say("{}", sigma_max_is_max);
     }
   add_facts(options, pattern, found, rows, result);
   if (files.report_wanted()) fill(result.page, options, model, all, found, rows.has_truth());

@@ -96,64 +96,6 @@ std::vector<Dominated> dominated(const std::vector<Contestant>& contestants) {
   return result;
 }
 
-void say_unrecognised(const std::vector<std::string>& classes, const std::vector<std::size_t>& rows,
-                      const std::vector<Recognised>& all, Result& result) {
-  std::map<std::string, std::vector<std::string>> contestants_of;
-  for (const auto& [contestant, times, share] : all) {
-    std::vector<std::string> never;
-    for (std::size_t c = 0; c < classes.size(); ++c)
-      if (rows[c] > 0 && times[c] == 0.0) never.push_back(fmt::format("{} ({} rows)", classes[c], rows[c]));
-    if (!never.empty()) contestants_of[listed(never, 12)].push_back(contestant);
-  }
-  for (const auto& [never, those] : contestants_of)
-    result.say("Not one row was recognised of {} by {}", never,
-               those.size() == all.size() ? "any classifier" : fmt::format("{}", fmt::join(those, "; ")));
-}
-
-void say_beaten(const std::vector<std::string>& classes, const std::vector<std::size_t>& rows,
-                const std::vector<Recognised>& all, Result& result) {
-  const auto most = std::ranges::max_element(rows);
-  const double share = static_cast<double>(*most) / sum_of(rows);
-  std::vector<std::string> worse;
-  for (const Recognised& one : all)
-    if (one.share && *one.share < share) worse.push_back(in_quotes(one.contestant));
-  if (!worse.empty())
-    result.say("{:.2f} % of the rows are {}: who always says so is right more often than {}", 100.0 * share,
-               in_quotes(classes[static_cast<std::size_t>(most - rows.begin())]), list_of(worse));
-}
-
-void say_miscalibrated(const std::string& contestant, double log_loss, const Surplus& surplus,
-                       const std::vector<std::string>& classes, const std::vector<std::size_t>& rows,
-                       std::string_view cause, Result& result, std::size_t repetitions) {
-  constexpr double much = 0.05, much_of_a_class = 0.1;
-  RunningMean of_all;
-  for (std::size_t c = 0; c < surplus.size(); ++c)
-    if (rows[c] > 0) of_all.add(surplus[c]);
-  const double sure = 2.0 * std::sqrt(static_cast<double>(repetitions));
-  const auto excess = [&](const RunningMean& of, double least) {
-    if (of.count() < 2) return 0.0;
-    const auto [by, half_width] = of.interval();
-    return by > std::max(least, sure * half_width) ? by : 0.0;
-  };
-  std::vector<double> own;  // of a class that no row has answers cannot be right
-  for (std::size_t c = 0; c < surplus.size(); ++c)
-    own.push_back(rows[c] > 0 ? excess(surplus[c], much_of_a_class) : 0.0);
-  const auto worst = std::ranges::max_element(own);
-  const double by = excess(of_all, much);
-  const double of_shares = sum_of(rows, [all = sum_of(rows)](std::size_t of_class) {
-    const double share = static_cast<double>(of_class) / all;
-    return share > 0.0 ? -share * std::log(share) : 0.0;
-  });
-  if (log_loss > of_shares)
-    result.say(
-        "{}: the shares of the classes alone have a log-loss of {:.3f}: its probabilities are worse than these{}",
-        contestant, of_shares, cause);
-  else if (by > 0.0 || *worst > 0.0)
-    result.say("{}: its answers{} are right {:.0f} points more seldom than their probabilities say{}", contestant,
-               by > 0.0 ? "" : " " + in_quotes(classes[static_cast<std::size_t>(worst - own.begin())]),
-               100.0 * (by > 0.0 ? by : *worst), cause);
-}
-
 Result result_of_contest(std::string title, const OutputOptions& output, const std::vector<Contestant>& contestants) {
   constexpr std::size_t widest_words = 120;  // longer lines are hard to read
   Result result(output);

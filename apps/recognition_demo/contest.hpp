@@ -75,31 +75,6 @@ struct Dominated {
 };
 std::vector<Dominated> dominated(const std::vector<Contestant>& contestants);
 
-/// How many rows of each class a contestant recognised, and which share of all, if it decided all of them.
-struct Recognised {
-  std::string contestant;
-  std::vector<double> times;
-  std::optional<double> share;
-};
-
-/// Says which classes no row was recognised of, and by whom, of so many rows of each.
-void say_unrecognised(const std::vector<std::string>& classes, const std::vector<std::size_t>& rows,
-                      const std::vector<Recognised>& all, Result& result);
-
-/// Says if a contestant recognised fewer than who always says the most frequent class.
-void say_beaten(const std::vector<std::string>& classes, const std::vector<std::size_t>& rows,
-                const std::vector<Recognised>& all, Result& result);
-
-/// Of the answers of each class: by how much their probabilities are above how often they are right.
-using Surplus = std::vector<RunningMean>;
-
-/// Says if a classifier's log-loss is above that of the classes' shares in so many rows of each, else if its answers,
-/// or those of a class, are right more seldom than their probabilities say; and what makes it so. Each answer was
-/// counted so many times, once a folding.
-void say_miscalibrated(const std::string& contestant, double log_loss, const Surplus& surplus,
-                       const std::vector<std::string>& classes, const std::vector<std::size_t>& rows,
-                       std::string_view cause, Result& result, std::size_t repetitions = 1);
-
 /// A column of differences between shares of right decisions, in points.
 inline ResultColumn of_points(std::string key, std::string header) {
   return {.key = std::move(key),

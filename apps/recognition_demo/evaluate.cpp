@@ -1,9 +1,14 @@
+#include <array>
+#include <map>
+
 #include <sigmax/recognition/decision.hpp>
 #include <sigmax/recognition/evaluation.hpp>
+#include <sigmax/recognition/folds.hpp>
 #include <sigmax/recognition/reliability.hpp>
 
 #include "recognition_demo/folding.hpp"
 #include "recognition_demo/subcommands.hpp"
+#include "recognition_demo/table_checks.hpp"
 #include "support/parallel.hpp"
 #include "support/progress.hpp"
 
@@ -28,14 +33,9 @@ struct Outcome {
   std::variant<Evaluation<Random>, Evaluation<Fuzzy>> evaluation;
   std::size_t excluded = 0;  ///< rows that excluded every class
   Reliability reliability{};
-  Surplus surplus{};
 
   const ConfusionMatrix& confusion() const {
     return of_kind(evaluation, [](const auto& e) -> const ConfusionMatrix& { return e.confusion(); });
-  }
-  Recognised recognised() const {
-    const ConfusionMatrix& rows = confusion();
-    return {name, each_below(rows.size(), [&](std::size_t c) { return rows(c, c); }), rows.accuracy()};
   }
   double ties() const {
     return of_kind(evaluation,
@@ -55,6 +55,9 @@ std::string paired_by(const EvaluateOptions& options) {
 /// Divides the rows into folds.
 using Deal = std::function<Folds(std::mt19937_64& generator)>;
 
+/// Of every row the classifiers that were right, a bit for each.
+using Right = std::vector<std::uint8_t>;
+
 /// The scores in one fold, by classifier; who was right is noted.
 std::vector<Outcome> classify_fold(const DataTable& data, const Folds& folds, std::size_t fold,
                                    const LearningOptions& options, Right& right) {
@@ -63,19 +66,15 @@ std::vector<Outcome> classify_fold(const DataTable& data, const Folds& folds, st
   for (const Contestant& contestant : taught_fold.contestants)
     of_kind(contestant.classifier, [&](const auto& by) {
       outcomes.push_back({contestant.name, Evaluation{by.prior().variable()}});
-      outcomes.back().surplus.resize(by.prior().size());
     });
-  unsigned bits = 0;
-  classify_rows(data, folds, taught_fold, 0, outcomes.size(), [&](const DataRow& row, std::size_t i, const Judged& by) {
+  classify_rows(data, folds, taught_fold, 0, outcomes.size(), [&](std::size_t row, std::size_t i, const Judged& by) {
     of_kind(by.belief, [&]<class Kind>(const Belief<Kind>& belief) {
-      const double is_right = std::get<Evaluation<Kind>>(outcomes[i].evaluation).add(row.label(), belief);
-      if (is_right > 0.0) bits |= 1U << i;
-      const std::size_t answer = decide(belief).pattern;
-      outcomes[i].surplus[answer].add(belief[answer] - is_right);
-      outcomes[i].reliability.add(row.label(), belief);
+      const bool is_right = std::get<Evaluation<Kind>>(outcomes[i].evaluation).add(data.labels[row], belief) > 0.0;
+      const unsigned bits = (i == 0 ? 0U : right[row]) | (is_right ? 1U << i : 0U);
+      right[row] = static_cast<std::uint8_t>(bits);
+      outcomes[i].reliability.add(data.labels[row], belief);
     });
     if (by.excluded) ++outcomes[i].excluded;
-    if (i + 1 == outcomes.size()) right.set(row.index, static_cast<std::uint8_t>(std::exchange(bits, 0)));
   });
   return outcomes;
 }
@@ -85,8 +84,8 @@ struct Results {
   using TimesRight = std::array<std::uint32_t, 5>;  ///< by classifier
 
   std::vector<Outcome> outcomes;
-  ScratchArray<TimesRight> times_right;  ///< by row
-  const Groups* groups = nullptr;        ///< that rows are of, if --groups tells
+  std::vector<TimesRight> times_right;  ///< by row
+  std::optional<Groups> groups;         ///< that rows are of, if --groups tells
 
   void add(std::vector<Outcome> fold) {
     if (outcomes.empty()) {
@@ -96,7 +95,6 @@ struct Results {
     for (std::size_t i = 0; i < outcomes.size(); ++i) {
       outcomes[i].excluded += fold[i].excluded;
       outcomes[i].reliability.add(fold[i].reliability);
-      for (std::size_t c = 0; c < outcomes[i].surplus.size(); ++c) outcomes[i].surplus[c].add(fold[i].surplus[c]);
       of_kind(outcomes[i].evaluation, [&]<class Kind>(Evaluation<Kind>& evaluation) {
         evaluation.add(std::get<Evaluation<Kind>>(fold[i].evaluation));
       });
@@ -105,15 +103,9 @@ struct Results {
 
   /// Who was right in a whole folding.
   void add(const Right& right) {
-    ScratchCursor<std::uint8_t> bits(right);
-    ScratchArray<TimesRight> sums;
-    ScratchCursor<TimesRight> before(times_right);
-    for (std::size_t row = 0; row < right.size(); ++row) {
-      TimesRight times = before[row];
-      for (std::size_t i = 0; i < times.size(); ++i) times[i] += bits[row] >> i & 1U;
-      sums.push_back(times);
-    }
-    times_right = std::move(sums);
+    times_right.resize(right.size());
+    for (std::size_t row = 0; row < right.size(); ++row)
+      for (std::size_t i = 0; i < outcomes.size(); ++i) times_right[row][i] += right[row] >> i & 1U;
   }
 
   /// Right answers of a classifier less those of the first, paired by row; a row counts by its mean over the foldings.
@@ -121,16 +113,13 @@ struct Results {
   Interval minus_first(std::size_t i, std::size_t foldings) const {
     RunningMean by_row, by_group;
     std::vector<std::pair<double, double>> sums;  // of a group's differences, and its rows
-    ScratchCursor<TimesRight> of_row(times_right);
-    std::optional<ScratchCursor<std::uint32_t>> group_of;
-    if (groups) group_of.emplace(*groups);
     for (std::size_t row = 0; row < times_right.size(); ++row) {
-      const TimesRight& times = of_row[row];
+      const TimesRight& times = times_right[row];
       const double difference =
           (static_cast<double>(times[i]) - static_cast<double>(times[0])) / static_cast<double>(foldings);
       by_row.add(difference);
       if (!groups) continue;
-      const std::size_t group = (*group_of)[row];
+      const std::size_t group = (*groups)[row];
       if (group >= sums.size()) sums.resize(group + 1);
       sums[group].first += difference;
       sums[group].second += 1.0;
@@ -141,37 +130,52 @@ struct Results {
   }
 };
 
+/// Log-loss of who gives each class its share of the rows.
+double log_loss_of_shares(const DataTable& data) {
+  return sum_of(data.rows_of_class, [&](std::size_t rows) {
+    const double share = static_cast<double>(rows) / static_cast<double>(data.size());
+    return -share * std::log(share);
+  });
+}
+
 /// Rows that excluded every class, the mean over the foldings.
 double excluded(const Outcome& outcome, std::size_t foldings) {
   return static_cast<double>(outcome.excluded) / static_cast<double>(foldings);
 }
 
-ResultTable outcomes_table(const Results& results, std::size_t foldings) {
+ResultTable outcomes_table(const DataTable& data, const Results& results, std::size_t foldings) {
   ResultTable table;
   for (std::size_t i = 0; i < results.outcomes.size(); ++i) {
     const Outcome& outcome = results.outcomes[i];
     const auto* const random = std::get_if<Evaluation<Random>>(&outcome.evaluation);
     const auto* const fuzzy = std::get_if<Evaluation<Fuzzy>>(&outcome.evaluation);
-    table.row_of({{of_words("classifier", "classifier"), outcome.name},
-                  {{.key = "accuracy", .header = "right", .unit = "%", .scale = 100.0}, outcome.confusion().accuracy()},
-                  {of_points("accuracy_minus_that_of_sigma", "− sigma's"),
-                   i == 0 ? Cell() : Cell(results.minus_first(i, foldings))},
-                  {{.key = "macro_f1", .header = "macro F1", .digits = 3}, outcome.confusion().macro_f1()},
-                  {{.key = "ties", .header = "ties", .unit = "%", .digits = 1, .scale = 100.0}, outcome.ties()},
-                  {{.key = "log_loss", .header = "log-loss", .digits = 3}, random ? Cell(random->log_loss()) : Cell()},
-                  {{.key = "brier", .header = "Brier", .digits = 3}, random ? Cell(random->brier()) : Cell()},
-                  {{.key = "calibration_error"}, random ? Cell(outcome.reliability.calibration_error()) : Cell()},
-                  {{.key = "mean_necessity_of_truth", .header = "necessity of truth", .digits = 3},
-                   fuzzy ? Cell(fuzzy->necessity()) : Cell()},
-                  {{.key = "coverage", .header = "covered", .unit = "%", .digits = 1, .scale = 100.0},
-                   fuzzy ? Cell(fuzzy->coverage()) : Cell()},
-                  {{.key = "mean_classes_in_the_cut", .header = "classes at ½ or more"},
-                   fuzzy ? Cell(fuzzy->cut_size()) : Cell()},
-                  {{.key = "rows_that_excluded_every_class"},
-                   outcome.excluded > 0 ? Cell(excluded(outcome, foldings)) : Cell()}});
+    table.row_of(
+        {{of_words("classifier", "classifier"), outcome.name},
+         {{.key = "accuracy", .header = "right", .unit = "%", .scale = 100.0}, outcome.confusion().accuracy()},
+         {of_points("accuracy_minus_that_of_sigma", "− sigma's"),
+          i == 0 ? Cell() : Cell(results.minus_first(i, foldings))},
+         {{.key = "macro_f1", .header = "macro F1", .digits = 3}, outcome.confusion().macro_f1()},
+         {{.key = "ties", .header = "ties", .unit = "%", .digits = 1, .scale = 100.0}, outcome.ties()},
+         {{.key = "log_loss", .header = "log-loss", .digits = 3}, random ? Cell(random->log_loss()) : Cell()},
+         {{.key = "log_loss_of_the_shares", .header = "shares' log-loss", .digits = 3},
+          i == 0 ? Cell(log_loss_of_shares(data)) : Cell()},
+         {{.key = "brier", .header = "Brier", .digits = 3}, random ? Cell(random->brier()) : Cell()},
+         {{.key = "calibration_error", .header = "calibration error", .unit = "%", .digits = 1, .scale = 100.0},
+          random ? Cell(outcome.reliability.calibration_error()) : Cell()},
+         {{.key = "mean_necessity_of_truth", .header = "necessity of truth", .digits = 3},
+          fuzzy ? Cell(fuzzy->necessity()) : Cell()},
+         {{.key = "coverage", .header = "covered", .unit = "%", .digits = 1, .scale = 100.0},
+          fuzzy ? Cell(fuzzy->coverage()) : Cell()},
+         {{.key = "mean_classes_in_the_cut", .header = "classes at ½ or more"},
+          fuzzy ? Cell(fuzzy->cut_size()) : Cell()},
+         {{.key = "rows_that_excluded_every_class"},
+          outcome.excluded > 0 ? Cell(excluded(outcome, foldings)) : Cell()}});
   }
   return table;
 }
+
+/// Sigma, and max by the ratio scale.
+constexpr std::array<std::size_t, 2> shown_in_full = {0, 1};
 
 ResultTable confusion_table(const DataTable& data, const Outcome& outcome, std::size_t foldings) {
   ResultTable table;
@@ -180,6 +184,35 @@ ResultTable confusion_table(const DataTable& data, const Outcome& outcome, std::
     for (std::size_t c = 0; c < data.classes.size(); ++c)
       row.push_back({{.header = data.classes[c], .digits = foldings == 1 ? 0 : 1},
                      outcome.confusion()(truth, c) / static_cast<double>(foldings)});
+    table.row_of(row);
+  }
+  return table;
+}
+
+/// Recall and precision of each class, by the classifiers that are shown in full.
+ResultTable classes_table(const DataTable& data, const Results& results) {
+  ResultTable table;
+  for (std::size_t c = 0; c < data.classes.size(); ++c) {
+    std::vector<Field> row = {{of_words("class", "class"), data.classes[c]},
+                              {{.key = "rows", .header = "rows"}, data.rows_of_class[c]}};
+    for (const std::size_t i : shown_in_full) {
+      const Outcome& outcome = results.outcomes[i];
+      const auto& confusion = outcome.confusion();
+      double truths = 0.0, decisions = 0.0;
+      for (std::size_t other = 0; other < data.classes.size(); ++other)
+        truths += confusion(c, other), decisions += confusion(other, c);
+      const auto add = [&](const char* what, double of) {
+        row.push_back({{.key = fmt::format("{}: {}", outcome.name, what),
+                        .header = what,
+                        .unit = "%",
+                        .digits = 1,
+                        .scale = 100.0,
+                        .group = outcome.name + ":"},
+                       of > 0.0 ? std::optional(confusion(c, c) / of) : std::nullopt});
+      };
+      add("recall", truths);
+      add("precision", decisions);
+    }
     table.row_of(row);
   }
   return table;
@@ -205,10 +238,10 @@ void write_predictions(const DataTable& data, const Deal& deal, const EvaluateOp
   for (std::size_t fold = 0; fold < options.folds; ++fold) {
     const TaughtFold taught_fold = taught(data, folds, fold, options.learning);
     for (std::size_t i = 0; i < taught_fold.contestants.size(); ++i)
-      classify_rows(data, folds, taught_fold, i, i + 1, [&](const DataRow& row, std::size_t, const Judged& by) {
+      classify_rows(data, folds, taught_fold, i, i + 1, [&](std::size_t row, std::size_t, const Judged& by) {
         of_kind(by.belief, [&](const auto& belief) {
-          std::vector<Cell> cells = {row.line(), fold + 1, data.classes[row.label()], taught_fold.contestants[i].name,
-                                     data.classes[decide(belief).pattern]};
+          std::vector<Cell> cells = {data.lines[row], fold + 1, data.classes[data.labels[row]],
+                                     taught_fold.contestants[i].name, data.classes[decide(belief).pattern]};
           for (std::size_t c = 0; c < belief.size(); ++c) cells.emplace_back(belief[c]);
           file.write(cells);
         });
@@ -219,10 +252,9 @@ void write_predictions(const DataTable& data, const Deal& deal, const EvaluateOp
 /// Throws unless every class can be learned whichever fold is left out.
 void refuse_rare_classes(const DataTable& data) {
   std::map<std::size_t, std::string> rare;  // by class
-  data.for_each([&](const DataRow& row) {
-    const std::size_t c = row.label();
-    if (data.rows_of_class[c] < 2) rare[c] = fmt::format("{} (line {})", in_quotes(data.classes[c]), row.line());
-  });
+  for (std::size_t row = 0; row < data.size(); ++row)
+    if (const std::size_t c = data.labels[row]; data.rows_of_class[c] < 2)
+      rare[c] = fmt::format("{} (line {})", in_quotes(data.classes[c]), data.lines[row]);
   if (rare.empty()) return;
   throw InputError(
       "{}: column {}: found a single row of {}, expected at least two of every class: one to learn from, one to "
@@ -232,8 +264,7 @@ void refuse_rare_classes(const DataTable& data) {
 
 Results evaluated(const DataTable& data, const Deal& deal, const EvaluateOptions& options) {
   Results results;
-  Right right;
-  for (std::size_t row = 0; row < data.size(); ++row) results.times_right.push_back({}), right.push_back(0);
+  Right right(data.size());
   const int threads = threads_or_all(options.threads);
   Progress progress("folds", options.folds * options.foldings, options.output.quiet);
   std::mt19937_64 generator(options.seed);
@@ -253,96 +284,51 @@ Results evaluated(const DataTable& data, const Deal& deal, const EvaluateOptions
   return results;
 }
 
-/// Says what makes the shares of right answers too good for other rows: columns that are known when the class is, and
-/// rows of one thing.
-void say_too_good(const DataTable& data, double accuracy, double most_often, const EvaluateOptions& options,
-                  Result& result) {
-  const auto say = [&]<class... Words>(fmt::format_string<Words...> format, Words&&... words) {
-    result.page.verdict.push_back(fmt::format(format, std::forward<Words>(words)...));
-    result.say(result.page.verdict.back());
-  };
-  constexpr double very_good = 0.9, much = 0.1, less = 0.03;
-  if (accuracy > very_good && data.columns.size() > 1) {
-    const auto relations = learned_relations(learn(data, options.learning).counts, options.learning.smoothing);
-    const auto most = static_cast<std::size_t>(std::ranges::max_element(relations, {}, telling) - relations.begin());
-    const auto shares = right_when_left_out(data, options.learning, options.seed, options.threads, {most});
-    double without = 0.0;
-    for (std::size_t c = 0; c < shares.size(); ++c)
-      without += shares[c] * static_cast<double>(data.rows_of_class[c]) / static_cast<double>(data.size());
-    const std::string& name = data.columns[most].name;
-    if (!shares.empty() && accuracy - most_often > much && without - most_often < (accuracy - most_often) / 3.0)
-      say("Without column {} {:.2f} % are right by sigma, not {:.2f}: if it is not known before the class is, leave it "
-          "out by --ignore {}",
-          in_quotes(name), 100.0 * without, 100.0 * accuracy, typed(name));
-  }
-  constexpr std::size_t few_rows_of_a_class = 100, many_classes = 8;
-  if (data.classes.size() > many_classes && data.size() < few_rows_of_a_class * data.classes.size())
-    if (const auto less_so = less_in_any_folds(data, options.learning, options.seed, options.threads);
-        less_so && by_no_chance(*less_so, 0.02))
-      say("{:.1f} % are right by sigma where folds are drawn whatever the class is: of {} classes with few rows some "
-          "have more by chance, and so in each of the folds above; expect that of other rows",
-          100.0 * (accuracy - less_so->mean), data.classes.size());
-  bool any = false;
-  for (const std::size_t column : columns_of_groups(data, options.learning)) {
-    const auto by = by_column(data, options.learning, column, options.seed, options.threads);
-    if (!by) continue;
-    const auto names = each(by->hidden, [&](std::size_t one) { return in_quotes(data.columns[one].name); });
-    const std::string& name = data.columns[column].name;
-    const bool are_groups = by_no_chance(by->less, 0.05);
-    any |= are_groups;
-    if (are_groups)
-      say("{:.1f} % are right by sigma without column{} {}, and {:.1f} % where rows of the same {} are in one fold: if "
-          "other rows are of others, expect the latter; --groups {}{} keeps them together",
-          100.0 * by->without_all, names.size() > 1 ? "s" : "", fmt::join(names, ", "),
-          100.0 * (by->without_all - by->less.mean), name, typed(name),
-          by->values < options.folds ? fmt::format(" --folds {}", by->values) : "");
-    else if (by_no_chance(by->more, less))
-      say("{:.1f} % are right by sigma without column {}, {:.1f} points more: leave it out by --ignore {}",
-          100.0 * by->without, in_quotes(name), 100.0 * by->more.mean, typed(name));
-  }
-  const double by_chance = 0.5 / std::sqrt(static_cast<double>(data.size()));  // a standard error at ½
-  if (any || accuracy < most_often + by_chance) return;
-  const auto clumps = by_clumps(data, options.learning, options.seed, options.threads);
-  if (are_in_clumps(clumps))
-    say("{:.1f} % are right by sigma{}, and {:.1f} % where rows that are much alike are in one fold: if they are of "
-        "one thing, as a person, a place or a session, or made of one another, the others are too good; keep those of "
-        "one thing together by --groups, if a column names it",
-        100.0 * clumps->accuracy, clumps->rows < data.size() ? fmt::format(" of {} rows", clumps->rows) : "",
-        100.0 * (clumps->accuracy - clumps->less.mean));
+/// Which classifier to use: sigma, unless another one is right more often beyond its interval; none of them where the
+/// most frequent class alone is, beyond chance.
+std::string advice(const DataTable& data, const Results& results, const EvaluateOptions& options) {
+  const auto rows = static_cast<double>(data.size());
+  const auto most = std::ranges::max_element(data.rows_of_class);
+  const double baseline = static_cast<double>(*most) / rows;
+  std::size_t best = 0;
+  Interval by;
+  for (std::size_t i = 1; i < results.outcomes.size(); ++i)
+    if (const Interval own = results.minus_first(i, options.foldings); own.above_zero() && own.mean > by.mean)
+      best = i, by = own;
+  const Outcome& chosen = results.outcomes[best];
+  const double right = chosen.confusion().accuracy();
+  if (!options.learning.equal_prior && baseline - right > 2.0 * std::sqrt(baseline * (1.0 - baseline) / rows))
+    return fmt::format("Use none, because the majority-class baseline, {}, is right in {:.2f} %, {} in {:.2f} %.",
+                       in_quotes(data.classes[static_cast<std::size_t>(most - data.rows_of_class.begin())]),
+                       100.0 * baseline, chosen.name, 100.0 * right);
+  if (best == 0) return "Use sigma, because no other classifier is right more often beyond its interval.";
+  return fmt::format(
+      "Use {}, because, trained on these rows, it is right {:.2f} ± {:.2f} points more often than sigma.", chosen.name,
+      100.0 * by.mean, 100.0 * by.half_width);
 }
 
 void say_scores(const DataTable& data, const Results& results, const EvaluateOptions& options, Result& result) {
   result.say("{}: {}\n{}, {}seed {}; {}", data.file, described(data), described_folds(options),
              options.foldings == 1 ? "" : fmt::format("in {} foldings, ", options.foldings), options.seed,
              described(options.learning));
-  result.add(outcomes_table(results, options.foldings), {.summary = {"classifiers"}});
+  result.add(outcomes_table(data, results, options.foldings), {.summary = {"classifiers"}});
   result.say(
-      "(The class is the most likely one, the first of those that tie. Differences ± 95 % by paired {}. Necessity: 1 − "
-      "the possibility of the best other class. A truth is covered if its possibility is at least ½.)",
+      "(The class is the most likely one, the first of those that tie. Differences ± 95 % by paired {}; the intervals "
+      "do not count that other training rows make other classifiers. The shares are those of the classes. Necessity: 1 "
+      "− the possibility of the best other class. A truth is covered if its possibility is at least ½.)",
       paired_by(options));
-  const auto most = std::ranges::max_element(data.rows_of_class);
-  const double most_often = static_cast<double>(*most) / static_cast<double>(data.size());
-  const auto recognised = each(results.outcomes, &Outcome::recognised);
-  say_beaten(data.classes, data.rows_of_class, recognised, result);
-  for (const Outcome& outcome : results.outcomes)
-    if (const auto* const random = std::get_if<Evaluation<Random>>(&outcome.evaluation))
-      say_miscalibrated(outcome.name, random->log_loss(), outcome.surplus, data.classes, data.rows_of_class,
-                        options.learning.equal_prior ? ", as --equal-prior leaves the classes' shares out"
-                        : data.columns.size() > 1 ? ", as where several columns tell the same, or a value or bin has "
-                                                    "few rows of a class (fewer --bins)"
-                                                  : "",
-                        result, options.foldings);
   for (const Outcome& outcome : results.outcomes)
     if (outcome.excluded > 0)
       result.say("{}: {:.3g} rows excluded every class and were judged by the prior", outcome.name,
                  excluded(outcome, options.foldings));
-  say_unrecognised(data.classes, data.rows_of_class, recognised, result);
-  if (options.groups.empty())
-    say_too_good(data, results.outcomes.front().confusion().accuracy(), most_often, options, result);
+  result.add(classes_table(data, results), {.summary = {"of_each_class"}});
   constexpr std::size_t most_classes = 10;
-  result.say({{options.learning.misread == 0.0, std::string(sigma_max_is_max)}});
-  if (data.classes.size() > most_classes) return;
-  for (const std::size_t i : {0U, 1U}) result.add(confusion_table(data, results.outcomes[i], options.foldings), {});
+  if (data.classes.size() <= most_classes)
+    for (const std::size_t i : shown_in_full)
+      result.add(confusion_table(data, results.outcomes[i], options.foldings), {});
+  const std::string use = advice(data, results, options);
+  result.page.verdict.push_back(use);
+  result.say("\n{}", use);
 }
 
 /// Rows of the data by true and decided class.
@@ -393,12 +379,15 @@ void fill(Report& page, const DataTable& data, const Results& results, const Eva
   page.verdict.insert(page.verdict.begin(),
                       fmt::format("{}. {}, {} foldings, seed {}; {}.", described(data), described_folds(options),
                                   options.foldings, options.seed, described(options.learning)));
-  page.panels.emplace_back(ReportTable{"Classifiers", outcomes_table(results, options.foldings),
-                                       fmt::format("Differences ± 95 % by paired {}.", paired_by(options))});
+  page.panels.emplace_back(ReportTable{"Classifiers", outcomes_table(data, results, options.foldings),
+                                       fmt::format("Differences ± 95 % by paired {}; they do not count that other "
+                                                   "training rows make other classifiers.",
+                                                   paired_by(options))});
   constexpr std::size_t most_classes = 30;
   if (data.classes.size() <= most_classes)
     for (const Outcome& outcome : results.outcomes)
       page.panels.emplace_back(confusion_map(data, outcome, options.foldings));
+  page.panels.emplace_back(ReportTable{"Classes", classes_table(data, results)});
   for (const Outcome& outcome : results.outcomes)
     page.panels.emplace_back(reliability_chart(outcome, options.foldings));
   page.last = relation_maps(learned_relations(learn(data, options.learning).counts, options.learning.smoothing), 6);
@@ -408,17 +397,18 @@ void run_evaluate(const EvaluateOptions& options) {
   refuse_to_overwrite(options.output, {options.file}, {"predictions.csv", "confusion.csv"});
   ResultFiles files(options.output);
   const DataTable data = read_data(options.file, options.data, options.output.quiet);
-  print_warnings(data, options.learning, options.data.grouped);
+  print_findings(data);
   if (options.folds > data.size())
     throw InputError("{}: found {} rows, expected at least as many as the {} folds", data.file, data.size(),
                      options.folds);
   refuse_rare_classes(data);
   const auto groups = options.groups.empty() ? std::nullopt : std::optional(groups_of(data, options.groups));
   const Deal deal = [&](std::mt19937_64& generator) {
-    return groups ? folds_of(data, *groups, options.folds, generator) : folds_of(data, options.folds, generator);
+    return groups ? grouped_folds(data, *groups, options.folds, generator)
+                  : stratified_folds(data.labels, options.folds, generator);
   };
   Results results = evaluated(data, deal, options);
-  results.groups = groups ? &*groups : nullptr;
+  results.groups = groups;
   Result result = result_of_contest("Cross-validation of " + data.file, options.output);
   result.facts("file", data.file, "rows", data.size(), "classes", data.classes, "folds", options.folds, "foldings",
                options.foldings, "seed", options.seed, "smoothing", options.learning.smoothing, "misread",
@@ -455,8 +445,7 @@ void add_evaluate(CLI::App& program, const std::string& command) {
     if (!options->groups.empty() && options->file == "-")
       throw UsageError("--groups reads the data twice: it takes no standard input");
     if (options->groups == options->data.label) throw UsageError("--groups: the label cannot be what rows are of, too");
-    options->data.grouped = !options->groups.empty();
-    if (options->data.grouped) options->data.ignore.push_back(options->groups);
+    if (!options->groups.empty()) options->data.ignore.push_back(options->groups);
     run_evaluate(*options);
   });
 }

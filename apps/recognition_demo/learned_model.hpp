@@ -14,8 +14,21 @@ struct FeatureCode {
   std::vector<std::string> values;                       ///< of a categorical feature
   std::optional<Discretization> bins;                    ///< of a numeric one
   double least = std::nan(""), greatest = std::nan("");  ///< number learned from, NaN where it is not known
+  bool missing_is_value = false;                         ///< the last one
 
-  std::vector<std::string> labels() const { return bins ? bins->labels() : values; }
+  std::size_t size() const { return (bins ? bins->size() : values.size()) + (missing_is_value ? 1 : 0); }
+
+  std::vector<std::string> labels() const {
+    std::vector<std::string> all = bins ? bins->labels() : values;
+    if (missing_is_value) all.emplace_back("missing");
+    return all;
+  }
+
+  /// What is read of a number, or of an index into the values; of NaN what is read where a cell is missing.
+  std::size_t reading(double value) const {
+    if (std::isnan(value)) return missing_is_value ? size() - 1 : missing;
+    return bins ? bins->bin(value) : static_cast<std::size_t>(value);
+  }
 };
 
 /// Choices that turn counts into relations, the same for every classifier.
@@ -38,25 +51,17 @@ struct LearnedModel {
 };
 
 /// Says whether a row is to be learned from; the same at every call.
-using RowChoice = std::function<bool(const DataRow&)>;
+using RowChoice = std::function<bool(std::size_t row)>;
 
 /// Fits bins and counts on some rows of the data, or on all.
 LearnedModel learn(
-    const DataTable& data, const LearningOptions& options,
-    const RowChoice& chosen = [](const DataRow&) { return true; });
+    const DataTable& data, const LearningOptions& options, const RowChoice& chosen = [](std::size_t) { return true; });
 
 /// One row of the data as readings, into room that is used again.
-void read(const LearnedModel& model, const DataRow& row, Readings& readings);
+void read(const LearnedModel& model, const DataTable& data, std::size_t row, Readings& readings);
 
 /// The options of learning, and those of the data that are learned from.
 void add_learning(Subcommand app, std::string& file, DataOptions& data, LearningOptions& learning);
-
-/// The share of what is not known of the class that a column tells, less what it would by chance.
-double told_of_class(const LearnedModel& model, std::size_t column);
-
-/// Prints to standard error where bins of numbers are too wide for a plain reason. Returns the columns, as they are
-/// typed, of which narrower bins would tell more.
-std::vector<std::string> warn_of_bins(const DataTable& data, const LearningOptions& options);
 
 /// "101 rows, 7 classes, 16 features (15 categorical, 1 numeric)".
 std::string described(const DataTable& data);
@@ -64,14 +69,12 @@ std::string described(const DataTable& data);
 /// "counts smoothed by Laplace's rule; prior by the classes' shares of the rows", and what else was chosen.
 std::string described(const LearningOptions& options);
 
-inline constexpr std::string_view sigma_max_is_max =
-    "(Without --misread a reading is the feature itself, so that sigma-max inference, (17), is max inference.)";
-
 /// The kinds of classifiers: "sigma", "max", "sigma-max".
 inline const std::vector<std::string> kind_names = {"sigma", "max", "sigma-max"};
 
 /// The classifiers of the named kinds, in the order of `kind_names`; those with possibilities for the ratio scale and
-/// for Dubois and Prade's transform.
+/// for Dubois and Prade's transform. Sigma-max classifiers that are max classifiers are left out beside these: all
+/// where nothing is misread, (17), and else that of the ratio scale, since the rows of the sensor have equal maxima.
 std::vector<Contestant> classifiers(const LearnedModel& model, std::span<const std::string> kinds);
 
 /// A model as a JSON file, which appears whole or not at all, and back. `read_model` throws InputError with the file

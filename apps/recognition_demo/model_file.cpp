@@ -72,9 +72,12 @@ std::vector<std::string> names(const Node& node, std::string_view of_what) {
 double count(const Node& node) { return node.number(0.0, 0x1p53, "a count that is not negative"); }
 
 FeatureCode feature_code(const Node& node) {
-  FeatureCode code{node.at("name").text(), {}, std::nullopt};
+  FeatureCode code{.name = node.at("name").text()};
+  code.missing_is_value = node.has("missing_is_value") && node.at("missing_is_value").boolean();
   if (!node.has("cuts")) {
     code.values = names(node.at("values"), "values");
+    if (code.missing_is_value && std::ranges::find(code.values, "missing") != code.values.end())
+      throw node.at("values").error("no value 'missing' beside missing_is_value");
     return code;
   }
   std::vector<double> cuts;
@@ -136,6 +139,7 @@ void write_model(const LearnedModel& model, std::span<const std::string> kinds, 
     if (code.bins) feature["cuts"] = std::vector<double>(code.bins->cuts().begin(), code.bins->cuts().end());
     if (code.least <= code.greatest) feature["range"] = {code.least, code.greatest};
     if (!code.bins) feature["values"] = code.values;
+    if (code.missing_is_value) feature["missing_is_value"] = true;
     for (std::size_t c = 0; c < counts.pattern().size(); ++c)
       feature["counts"].push_back(std::vector<double>(counts.of(i, c).begin(), counts.of(i, c).end()));
     json["features"].push_back(feature);

@@ -1,5 +1,6 @@
 #include "recognition_demo/folding.hpp"
 #include "recognition_demo/subcommands.hpp"
+#include "recognition_demo/table_checks.hpp"
 
 namespace sigmax::apps {
 namespace {
@@ -25,10 +26,10 @@ ResultTable features_table(const LearnedModel& model) {
 void run_train(const TrainOptions& options) {
   refuse_to_overwrite("--model", options.model, {options.file});
   const DataTable data = read_data(options.file, options.data, options.output.quiet);
-  print_warnings(data, options.learning);
+  print_findings(data);
   LearnedModel model = learn(data, options.learning);
   model.missing = options.data.missing;
-  model.right = right_when_left_out(data, options.learning, 1, 0);
+  model.right = right_when_left_out(data, options.learning);
   write_model(model, options.kinds, options.model);
 
   Result result = result_of_contest("", options.output);
