@@ -111,55 +111,6 @@ TYPED_PROPERTY(ClassifierWithFeatures, TakesCrispAndGradedFindingsInOneReport) {
   require_near(found, likelihood);
 }
 
-TYPED_PROPERTY(ClassifierWithFeatures, BelievesTheSameWhateverTheOrderOfTheReports) {
-  const Case<TypeParam> with;
-  auto forwards = with.classifier(), shuffled = with.classifier();
-  std::vector<Readings> reports;
-  for (int k = 0; k < 6; ++k) reports.push_back(with.any_readings());
-  const auto order = laws::any_order(reports.size());
-  for (std::size_t k = 0; k < reports.size(); ++k) {
-    forwards.observe(reports[k]);
-    shuffled.observe(reports[order[k]]);
-  }
-  require_near(forwards.belief().values(), shuffled.belief().values());
-}
-
-TYPED_PROPERTY(ClassifierWithFeatures, ScalesOfReportsDoNotMatterAndConstantOnesSayNothing) {
-  const Case<TypeParam> with;
-  auto classifier = with.classifier(), scaled = with.classifier();
-  Report<TypeParam> report, larger, constant;
-  for (const auto& feature : with.features) {
-    Numbers numbers = moderate_numbers(feature.size());
-    report.emplace_back(Likelihood{feature, numbers});
-    for (double& number : numbers) number *= 1e200;
-    larger.emplace_back(Likelihood{feature, numbers});
-    constant.emplace_back(Likelihood{feature, Numbers(feature.size(), 3.0)});
-  }
-  classifier.observe(report);
-  scaled.observe(constant);
-  require_near(scaled.belief().values(), with.prior);
-  scaled.observe(larger);
-  require_near(scaled.belief().values(), classifier.belief().values());
-}
-
-TYPED_PROPERTY(ClassifierWithFeatures, NeverBringsBackWhatIsExcluded) {
-  const auto pattern = laws::any_variable<TypeParam>("pattern"), feature = laws::any_variable<TypeParam>("feature");
-  Classifier classifier{laws::any_distribution(pattern), laws::any_relation(feature, pattern)};
-  if (*rc::gen::inRange(0, 2) == 1) classifier.set_forgetting(0.5);
-  std::vector<bool> excluded(pattern.size(), false);
-  for (int k = 0; k < 5; ++k) {
-    try {
-      classifier.observe(Likelihood{feature, laws::any_unit_numbers(feature.size())});
-    } catch (const std::domain_error&) {  // it excludes all that is left
-    }
-    for (std::size_t c = 0; c < pattern.size(); ++c) {
-      const bool now = classifier.log_belief().log(c) == log_zero;
-      RC_ASSERT(now || !excluded[c]);
-      excluded[c] = now;
-    }
-  }
-}
-
 TYPED_PROPERTY(ClassifierWithFeatures, InABatchIsTheSequenceForgettingIncluded) {
   const Case<TypeParam> with;
   auto one_by_one = with.classifier(), at_once = with.classifier();
@@ -252,21 +203,6 @@ TYPED_PROPERTY(ClassifierWithFeatures, ResetGoesBackToThePrior) {
   require_near(classifier.belief().values(), with.prior);
   classifier.observe(second);
   require_near(classifier.belief().values(), plain::update(by_kind<TypeParam>, with.prior, with.likelihood(second)));
-}
-
-TYPED_PROPERTY(ClassifierWithFeatures, RelabellingPatternsRelabelsBeliefs) {
-  const Case<TypeParam> with;
-  const auto order = laws::any_order(with.pattern.size());
-  Case<TypeParam> relabelled = with;
-  for (std::size_t c = 0; c < order.size(); ++c) {
-    relabelled.prior[c] = with.prior[order[c]];
-    for (std::size_t i = 0; i < with.rows.size(); ++i) relabelled.rows[i][c] = with.rows[i][order[c]];
-  }
-  auto classifier = with.classifier(), other = relabelled.classifier();
-  const Readings readings = with.any_readings();
-  classifier.observe(readings);
-  other.observe(readings);
-  for (std::size_t c = 0; c < order.size(); ++c) require_near(other.belief()[c], classifier.belief()[order[c]]);
 }
 
 TYPED_PROPERTY(ClassifierWithFeatures, WithThePredictedFeatureIsThePrintedRecursion) {  // (41)–(43), (44)–(46)

@@ -6,34 +6,6 @@ namespace classifier_test {
 /// Sigma inference (41)–(43) for Random and max inference (44)–(46) for Fuzzy: one classifier.
 TYPED_SUITE(ClassifierOf, Random, Fuzzy);
 
-TYPED_PROPERTY(ClassifierOf, EachKindIsThePlainRecursion) {
-  constexpr plain::By by = by_kind<TypeParam>;
-  const auto pattern = any_variable<TypeParam>("pattern"), feature = any_variable<TypeParam>("feature");
-  const auto prior = any_distribution(pattern);
-  const auto pattern_given_feature = any_relation(pattern, feature);
-  const auto feature_prior = any_distribution(feature);
-
-  // (43), (46): the static relation, built once; by the library and by plain loops.
-  const auto inverse = invert(pattern_given_feature, feature_prior);
-  Rows feature_given_pattern =
-      plain::invert(by, rows_of(pattern_given_feature.table()), numbers_of(feature_prior.values()));
-  for (Numbers& row : feature_given_pattern)  // a pattern that no feature leads to says nothing of its features
-    if (row.empty()) row.assign(feature.size(), by == plain::By::sum ? 1.0 / static_cast<double>(feature.size()) : 1.0);
-
-  Classifier classifier{prior, inverse.relation};
-  Numbers expected = numbers_of(prior.values());
-  for (int k = 0; k < 4; ++k) {
-    Numbers report = any_unit_numbers(feature.size());
-    for (double& value : report) value += 1e-3;  // far from underflow, where plain numbers cannot follow
-    Numbers likelihood;                          // (42), (45)
-    for (const Numbers& row : feature_given_pattern)
-      likelihood.push_back(static_cast<double>(plain::evidence(by, row, report)));
-    expected = plain::update(by, expected, likelihood);  // (41), (44)
-    classifier.observe(Likelihood{feature, report});
-    require_near(classifier.belief().values(), expected);
-  }
-}
-
 TYPED_PROPERTY(ClassifierOf, OneReportThatAllowsFewFeaturesIsThePlainRecursionToo) {
   constexpr plain::By by = by_kind<TypeParam>;
   const auto pattern = any_variable<TypeParam>("pattern"), feature = any_variable<TypeParam>("feature");

@@ -44,16 +44,6 @@ TEST(PatternPrior, IsTheShareOfTheRows) {
   EXPECT_CLOSE(pattern_prior(empty, 1.0).values(), (Numbers{0.5, 0.5}), 0.0);
 }
 
-TEST(LearnedRelation, IsSmoothedAsStated) {
-  const Counts counts = farm();
-  const auto laplace = learned_relation(counts, 0, 1.0);
-  EXPECT_EQ(laplace.to(), legs);
-  EXPECT_EQ(laplace.from(), animal);
-  EXPECT_CLOSE(laplace.table().values(), (Numbers{0.2, 0.2, 0.6, 0.25, 0.5, 0.25}), 1e-15);
-  EXPECT_CLOSE(learned_relation(counts, 0, 0.5).row(0), (Numbers{0.5 / 3.5, 0.5 / 3.5, 2.5 / 3.5}), 1e-15);
-  EXPECT_CLOSE(learned_relation(counts, 1, 0.0).table().values(), (Numbers{1.0 / 3.0, 2.0 / 3.0, 1.0, 0.0}), 1e-15);
-}
-
 PROPERTY(LearnedRelation, IsTheStatedFormulaForAnyRows) {
   const RandomVariable pattern{"pattern", laws::any_size()}, feature{"feature", laws::any_size()};
   Counts counts{pattern, {feature}};

@@ -51,16 +51,6 @@ TEST(Discretization, RefusesCutsThatDoNotAscend) {
   EXPECT_THROW(bins.upper(2), std::invalid_argument);
 }
 
-PROPERTY(Discretization, PutsEveryValueBetweenTheBoundsOfItsBin) {
-  Numbers cuts = laws::any_unit_numbers(laws::any_size());
-  std::sort(cuts.begin(), cuts.end());
-  cuts.erase(std::unique(cuts.begin(), cuts.end()), cuts.end());
-  const Discretization bins{cuts};
-  const double value = laws::any_unit_number();
-  const std::size_t bin = bins.bin(value);
-  RC_ASSERT(bins.lower(bin) <= value && value < bins.upper(bin));
-}
-
 TEST(EqualWidth, CutsTheRangeOfTheTrainingData) {
   const Numbers values{3.0, not_a_number, -1.0, 0.0, 7.0};
   const Discretization bins = equal_width(values, 4);
@@ -70,26 +60,6 @@ TEST(EqualWidth, CutsTheRangeOfTheTrainingData) {
   EXPECT_EQ(equal_width(values, 1).size(), 1U);
   const double huge = std::numeric_limits<double>::max();
   EXPECT_CLOSE(equal_width(Numbers{-huge, huge}, 2).cuts(), (Numbers{0.0}), 0.0);
-}
-
-TEST(EqualFrequency, PutsAsManyValuesIntoEveryBin) {
-  const Numbers values{5, 3, 9, 1, not_a_number, 7, 8, 2, 6, 4};
-  const Discretization bins = equal_frequency(values, 3);
-  EXPECT_CLOSE(bins.cuts(), (Numbers{4.0, 7.0}), 0.0);  // 1 2 3 | 4 5 6 | 7 8 9
-}
-
-TEST(EqualFrequency, NeverSplitsATieAndLeavesAValueThatFillsABinAlone) {
-  // The cuts would be at 0, 1 and 3: below the least there is nothing to cut off, but above it.
-  EXPECT_CLOSE(equal_frequency(Numbers{0, 0, 0, 0, 0, 1, 2, 3, 4, 5}, 4).cuts(), (Numbers{1.0, 3.0}), 0.0);
-  EXPECT_CLOSE(equal_frequency(Numbers{0, 1, 1, 1, 1, 1, 2, 3}, 3).cuts(), (Numbers{1.0, 2.0}), 0.0);
-  EXPECT_CLOSE(equal_frequency(Numbers{0, 0, 0, 0, 0, 0, 0, 0, 5, 6}, 2).cuts(), (Numbers{5.0}), 0.0);
-  EXPECT_CLOSE(equal_frequency(Numbers{1, 2, 3, 4, 4, 4, 4, 4}, 3).cuts(), (Numbers{3.0, 4.0}),
-               0.0);  // none is above 4
-}
-
-TEST(EqualFrequency, GivesEachValueABinWhereTheyAreFew) {
-  EXPECT_CLOSE(equal_frequency(Numbers{7, 0, 0, 0, 0, 0, 0, 0, 0, 0, 2}, 8).cuts(), (Numbers{2.0, 7.0}), 0.0);
-  EXPECT_CLOSE(equal_frequency(Numbers{5, 5, 5, 4}, 2).cuts(), (Numbers{5.0}), 0.0);
 }
 
 /// Restated: the bins of a list of ranks, by what stands before and after.
@@ -119,18 +89,6 @@ PROPERTY(EqualFrequency, CutsAsThePlainRestatement) {
       }
   }
   RC_ASSERT(equal_frequency(values, bins).cuts() == Numbers(expected.begin(), expected.end()));
-}
-
-PROPERTY(EqualFrequency, HasBinsOfEqualSizeWhereNothingIsTied) {
-  const auto n = *rc::gen::inRange<std::size_t>(2, 40);
-  const auto bins = *rc::gen::inRange<std::size_t>(1, n + 1);
-  Numbers values;
-  for (const std::size_t i : laws::any_order(n)) values.push_back(static_cast<double>(i));
-  const Discretization fitted = equal_frequency(values, bins);
-  RC_ASSERT(fitted.size() == bins);
-  std::vector<std::size_t> sizes(bins, 0);
-  for (const double value : values) ++sizes[fitted.bin(value)];
-  for (const std::size_t size : sizes) RC_ASSERT(size == n / bins || size == n / bins + 1);
 }
 
 TEST(Fitting, RefusesWhatCannotBeCut) {

@@ -2,12 +2,6 @@
 #include "support/sigmax.hpp"
 
 namespace dominance_test {
-TEST(DominatedPatterns, AreNoneOfTheSameTablesAsProbabilities) {
-  const RandomVariable type{"type", 3}, manoeuvre{"manoeuvre", 3};
-  const Relation type_given_manoeuvre{
-      type, manoeuvre, {{1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0}, {0.0, 0.5, 0.5}, {0.0, 0.0, 1.0}}};
-  EXPECT_TRUE(dominated_patterns(invert(type_given_manoeuvre, uninformative(manoeuvre)).relation).empty());
-}
 
 const FuzzyVariable pattern{"pattern", 3}, feature{"feature", 2};
 
@@ -46,25 +40,6 @@ Relation<Fuzzy, Fuzzy> any_coarse_relation(const FuzzyVariable& to, const FuzzyV
             }
             return rows;
           })};
-}
-
-PROPERTY(DominatedPatterns, NeverExceedTheirDominatorWhateverIsReported) {
-  const auto patterns = laws::any_variable<Fuzzy>("pattern"), features = laws::any_variable<Fuzzy>("feature");
-  const auto relation = any_coarse_relation(features, patterns);
-  Classifier classifier{uninformative(patterns), relation};
-  const auto dominated = dominated_patterns(classifier);
-  for (int k = 0; k < 3; ++k) {
-    try {
-      classifier.observe(Likelihood{features, laws::any_unit_numbers(features.size())});
-    } catch (const std::domain_error&) {
-      continue;
-    }
-    for (const Dominance& each : dominated) {
-      const auto& belief = classifier.log_belief();
-      RC_ASSERT(belief.log(each.pattern) <= belief.log(each.dominator) + 1e-12);
-      if (each.equal) RC_ASSERT(belief.log(each.pattern) == belief.log(each.dominator));
-    }
-  }
 }
 
 /// Sound, not complete: what two patterns share in holding down is not listed, as the documentation says.

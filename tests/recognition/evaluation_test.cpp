@@ -93,22 +93,4 @@ TEST(Evaluation, RefusesABeliefOfAnotherVariable) {
   EXPECT_EQ(evaluation.size(), 0U);
 }
 
-/// Of 2000 experiments about 95 in 100 intervals hold the truth: the count is within five of its standard deviations.
-TEST(RunningMean, OfPairedScoresHoldsTheTruthInNinetyFiveOfAHundred) {
-  std::mt19937_64 generator(3);
-  const auto happens = [&](double chance) { return static_cast<double>(generator() >> 11) * 0x1p-53 < chance; };
-  int held = 0;
-  for (int experiment = 0; experiment < 2000; ++experiment) {
-    RunningMean difference;
-    for (int k = 0; k < 200; ++k) {
-      const bool easy = happens(0.5);  // what both find easy pairs them
-      const bool a = easy || happens(0.5), b = easy || happens(0.25);
-      difference.add((a ? 1.0 : 0.0) - (b ? 1.0 : 0.0));
-    }
-    const Interval interval = difference.interval();
-    held += interval.lower() <= 0.125 && 0.125 <= interval.upper() ? 1 : 0;
-  }
-  EXPECT_NEAR(held, 1900.0, 5.0 * std::sqrt(2000.0 * 0.95 * 0.05));
-}
-
 }  // namespace evaluation_test

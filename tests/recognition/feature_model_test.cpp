@@ -91,48 +91,5 @@ TEST(FeatureModel, RefusesASensorOfAnotherFeatureAndReadingsThatItHasNot) {
 }
 
 // The authors' kinematic recognition tables: manoeuvres weak, medium, strong; classes airliner, bomber, fighter.
-/// Where every row of the sensor's confusion has the same maximum, dividing by it is one factor for all.
-PROPERTY(SigmaMaxClassifier, CoincidesWithMaxOnTheRatioScaledSensorWheneverItsMaximaAreEqual) {
-  const auto target = any_variable<Fuzzy>("target"), emitter = any_variable<Fuzzy>("emitter");
-  const RandomVariable reading{"reading", emitter.size()};
-  const auto emitter_given_target = any_relation(emitter, target);
-  // Right with probability q, the rest shared at random but nowhere above q.
-  const double q = laws::any([&](rc::Random& random) {
-    const double least = 1.0 / static_cast<double>(emitter.size());
-    return least + (1.0 - least) * static_cast<double>(random.next() % 1000) / 1000.0;
-  });
-  Rows confusion;
-  for (std::size_t e = 0; e < emitter.size(); ++e) {
-    const std::size_t others = emitter.size() - 1;
-    Numbers row(emitter.size(), others == 0 ? 0.0 : (1.0 - q) / static_cast<double>(others));
-    row[e] = others == 0 ? 1.0 : q;
-    if (others >= 2) {  // moves some of it from one wrong reading to another
-      const std::size_t a = (e + 1) % emitter.size(), b = (e + 2) % emitter.size();
-      const double moved = std::min(row[a], q - row[b]) * laws::any_unit_number();
-      row[a] -= moved;
-      row[b] += moved;
-    }
-    confusion.push_back(row);
-  }
-  const Relation<Random, Fuzzy> reading_given_emitter{reading, emitter, confusion};
-  Classifier sigma_max{uninformative(target), std::vector{FeatureModel{emitter_given_target, reading_given_emitter}}};
-  Classifier max{uninformative(target),
-                 std::vector{FeatureModel{emitter_given_target, to_possibility(reading_given_emitter, RatioScale{})}}};
-  for (int k = 0; k < 5; ++k) {
-    const std::vector<std::size_t> report{*rc::gen::inRange<std::size_t>(0, reading.size())};
-    bool excluded = false;
-    try {
-      sigma_max.observe(report);
-    } catch (const std::domain_error&) {
-      excluded = true;
-    }
-    if (excluded) {
-      RC_ASSERT_THROWS_AS(max.observe(report), std::domain_error);
-    } else {
-      max.observe(report);
-      require_near(sigma_max.belief().values(), max.belief().values());
-    }
-  }
-}
 
 }  // namespace feature_model_test

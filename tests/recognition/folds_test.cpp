@@ -28,15 +28,6 @@ PROPERTY(StratifiedFolds, AreLevelOverAllAndWithinEveryLabel) {
   for (const Labels& sizes : within) RC_ASSERT(spread(sizes) <= 1U);
 }
 
-TEST(StratifiedFolds, AreTheSameForASeedAndOthersForAnother) {
-  Labels labels(40);
-  for (std::size_t row = 0; row < labels.size(); ++row) labels[row] = row % 3;
-  std::mt19937_64 one(1), again(1), other(2);
-  const auto folds = stratified_folds(labels, 5, one);
-  EXPECT_EQ(folds, stratified_folds(labels, 5, again));
-  EXPECT_NE(folds, stratified_folds(labels, 5, other));
-}
-
 /// Fisher–Yates from the last row of a label to the first, by the remainders of the raw draws; then dealt like cards.
 TEST(StratifiedFolds, AreDealtByTheRawDrawsOfTheGenerator) {
   for (const unsigned seed : {1U, 2U, 3U}) {
@@ -59,23 +50,6 @@ TEST(StratifiedFolds, AreDealtByTheRawDrawsOfTheGenerator) {
     }
     EXPECT_EQ(stratified_folds(labels, 4, generator), expected) << seed;
     EXPECT_EQ(generator(), raw()) << "another number of draws was taken";
-  }
-}
-
-/// Every row is as likely in one fold as in another: χ² with one degree of freedom for each row.
-TEST(StratifiedFolds, FavourNoRow) {
-  const Labels labels{0, 0, 0, 1, 1, 1, 1, 1};
-  constexpr int runs = 4000;
-  std::mt19937_64 generator(7);
-  Labels in_first(labels.size(), 0);
-  for (int run = 0; run < runs; ++run) {
-    const auto fold_of = stratified_folds(labels, 2, generator);
-    for (std::size_t row = 0; row < labels.size(); ++row) in_first[row] += fold_of[row] == 0 ? 1U : 0U;
-  }
-  // Of the three rows of label 0 two go to fold 0, of the five of label 1 two (the deal goes on from fold 1).
-  for (std::size_t row = 0; row < labels.size(); ++row) {
-    const double expected = runs * (labels[row] == 0 ? 2.0 / 3.0 : 2.0 / 5.0);
-    EXPECT_LT(std::abs(static_cast<double>(in_first[row]) - expected), 5.0 * std::sqrt(runs * 0.25)) << row;
   }
 }
 

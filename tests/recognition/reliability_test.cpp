@@ -75,24 +75,6 @@ TEST(Reliability, TakesEachPatternOfABelief) {
   }
 }
 
-/// Statements that are true as often as they say lie on the diagonal, within their intervals.
-TEST(Reliability, FindsCalibratedProbabilitiesCalibrated) {
-  std::mt19937_64 generator{1};
-  std::uniform_real_distribution<double> uniform;
-  Reliability calibrated, boasting;
-  for (int i = 0; i < 20000; ++i) {
-    const double degree = uniform(generator);
-    const bool is_true = uniform(generator) < degree;
-    calibrated.add(degree, is_true);
-    boasting.add(std::sqrt(degree), is_true);
-  }
-  int outside = 0;
-  for (const auto& bin : calibrated.bins()) outside += bin.mean_degree < bin.lower || bin.mean_degree > bin.upper;
-  EXPECT_LE(outside, 2);
-  EXPECT_LT(calibrated.calibration_error(), 0.02);
-  EXPECT_GT(boasting.calibration_error(), 0.1);
-}
-
 TEST(Reliability, RefusesWhatIsNoDegree) {
   using Bad = std::invalid_argument;
   Reliability reliability;

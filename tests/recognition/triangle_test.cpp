@@ -35,21 +35,6 @@ TEST(Triangle, HasASupremumOverAnInterval) {
   EXPECT_EQ((Triangle{2.0, 4.0, 4.0}.supremum(4.0, 5.0)), 1.0);
 }
 
-PROPERTY(Triangle, IsNeverAboveItsSupremumAndComesNearIt) {
-  Numbers corners = laws::any([](rc::Random& random) {
-    Numbers numbers(5);
-    for (double& number : numbers) number = static_cast<double>(random.next() % 17) / 4.0;
-    return numbers;
-  });
-  std::sort(corners.begin(), corners.begin() + 3);
-  const Triangle triangle{corners[0], corners[1], corners[2]};
-  const double lower = std::min(corners[3], corners[4]), upper = std::max(corners[3], corners[4]) + 0.25;
-  double greatest = 0.0;  // on a fine grid that holds all corners, and next to the upper bound
-  for (double x = lower; x < upper; x += 1.0 / 64.0) greatest = std::max(greatest, triangle(x));
-  greatest = std::max(greatest, triangle(std::nextafter(upper, lower)));
-  support::require_near(triangle.supremum(lower, upper), greatest);
-}
-
 TEST(Triangular, GivesABinItsMostPossibleValue) {
   const Discretization bins{{10.0, 15.0, 30.0, 50.0}};
   const FuzzyVariable speed = bins.variable<Fuzzy>("speed");
