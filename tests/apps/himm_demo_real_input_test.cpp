@@ -198,7 +198,7 @@ TEST(HimmDemoRealInput, NoNameCommandsTheTerminal) {
                               "--set", "filters=[himm_histories]", "--set", "explain=true"}));
   EXPECT_TRUE(
       says(whole.on_one_line(), {R"(radar\x1B[2J\x9B1m 30)", R"(x\x1B[2J\x9B1m in m)", R"(of ship\x1B[2J\x9B1m)",
-                                 R"(to )", R"(out\x1B[2J\x9B1m)", R"(real\x1B[2J\x9B1m.csv:23: no filter)"}));
+                                 R"(to )", R"(out\x1B[2J\x9B1m)", R"(real\x1B[2J\x9B1m.csv:22: 1 outlier)"}));
   // Files keep the bytes.
   EXPECT_TRUE(says(contents(directory.path() / ("out" + clear) / "estimates.csv"), {",ship" + clear + ","}));
   EXPECT_EQ(run({"--set", "a" + clear + "=3"}).status, 3);

@@ -81,19 +81,30 @@ void refuse_bad_transition(const Settings& settings, const char* key, const Filt
   if (rows.size() != modes || rows.front().size() != modes)
     throw settings.error(key, fmt::format("{0} rows of {0} numbers, one for each model", modes),
                          "give a row for each of the models");
-  for (std::size_t i = 0; i < modes; ++i) {
-    double total = 0.0;
-    for (const double value : rows[i]) {
-      if (!(value >= 0.0 && value <= 1.0))
-        throw settings.error(key, "numbers between 0 and 1", "correct row " + std::to_string(i + 1));
-      total = filter.fuzzy ? std::max(total, value) : total + value;
+  const auto total = [&](std::size_t i, bool of_column) {
+    double all = 0.0;
+    for (std::size_t j = 0; j < modes; ++j) {
+      const double value = of_column ? rows[j][i] : rows[i][j];
+      all = filter.fuzzy ? std::max(all, value) : all + value;
     }
-    if (!(std::abs(total - 1.0) <= 1e-9))
-      throw settings.error(
-          key,
-          fmt::format("a {} of 1 in every row; that of row {} (from {}) is {}", filter.fuzzy ? "maximum" : "sum", i + 1,
-                      filter.models[i], shortest(total)),
-          total > 0.0 ? fmt::format("divide that row by {}", shortest(total)) : "give a number above 0 in that row");
+    return all;
+  };
+  const auto is_one = [](double sum) { return std::abs(sum - 1.0) <= 1e-9; };
+  bool transposed = true;
+  for (std::size_t i = 0; i < modes; ++i) transposed &= is_one(total(i, true));
+  const std::string_view what = filter.fuzzy ? "maximum" : "sum";
+  for (std::size_t i = 0; i < modes; ++i) {
+    if (!std::ranges::all_of(rows[i], [](double value) { return value >= 0.0 && value <= 1.0; }))
+      throw settings.error(key, "numbers between 0 and 1", "correct row " + std::to_string(i + 1));
+    const double sum = total(i, false);
+    if (is_one(sum)) continue;
+    throw settings.error(
+        key,
+        fmt::format("a {} of 1 in every row; that of row {} (from {}) is {}", what, i + 1, filter.models[i],
+                    shortest(sum)),
+        transposed  ? fmt::format("its columns {} 1: transpose it", filter.fuzzy ? "have a maximum of" : "sum to")
+        : sum > 0.0 ? fmt::format("divide that row by {}", shortest(sum))
+                    : "give a number above 0 in that row");
   }
 }
 

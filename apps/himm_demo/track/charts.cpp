@@ -1,3 +1,4 @@
+#include "himm_demo/track/page.hpp"
 #include "himm_demo/track/track.hpp"
 
 #include <sigmax/estimation/chi_square.hpp>

@@ -1,9 +1,7 @@
 #include "himm_demo/subcommands.hpp"
 
-#include <cstdio>
-
+#include "himm_demo/track/page.hpp"
 #include "himm_demo/track/track.hpp"
-
 #include "recording/checks/checks.hpp"
 
 namespace sigmax::apps {
@@ -22,19 +20,17 @@ class Reporter {
            const TrackOutcome& outcome, Result& result)
       : options_(options), recording_(recording), filters_(filters), outcome_(outcome), result_(result) {}
 
-  std::vector<std::string> made(std::vector<std::string> findings) {
+  /// With the findings of the recording's checks, and what a gate would make of it, if that was tried.
+  void make(const std::vector<std::string>& findings, const TrackOutcome* gated) {
     add_facts();
     describe();
-    std::vector<std::string> warnings = warnings_of(options_, recording_, filters_, outcome_, std::move(findings));
-    if (!warnings.empty()) result_.fact({"warnings"}, warnings);
     result_.page.title = "Tracks of " + options_.recording.file;
-    for (const std::string& warning : warnings) result_.page.verdict.push_back("Warning: " + warning);
     result_.page.panels.emplace_back(Words{"The recording", result_.text});
-    if (!outcome_.each.empty()) list_tracks();
-    for (std::size_t p = 0; p < (recording_.has_roll() ? parts.size() : 1); ++p) tabulate(p);
+    judge(findings, gated);
+    if (recording_.has_tracks()) list_tracks();
+    for (std::size_t p = 0; p < (recording_.has_roll() ? row_parts.size() : 1); ++p) tabulate(p);
     explain();
     result_.page.last.emplace_back(Words{"Settings in force", as_toml(filters_), true});
-    return warnings;
   }
 
  private:
@@ -56,6 +52,22 @@ class Reporter {
     if (recording_.has_tracks())
       result_.facts_at({"tracks"}, "count", outcome_.each.size(), "never_started", outcome_.never_started);
     result_.fact({"settings_toml"}, as_toml(filters_));
+  }
+
+  /// The verdict, above all else: the findings, which are causes, or what they leave to be said of the result.
+  void judge(const std::vector<std::string>& findings, const TrackOutcome* gated) {
+    std::vector<std::string> lines = findings;
+    if (lines.empty()) lines.push_back(verdict_of(options_, recording_, filters_, outcome_, gated));
+    for (const auto& filter : filters_)
+      for (const auto& [sensor, own] : filter.sensors)
+        if (!outcome_.sensors.contains(sensor))
+          lines.push_back(fmt::format("key 'sensor.{}' of filter '{}': {} has no row of that sensor; correct the name",
+                                      sensor, filter.name, file_));
+    result_.fact({"verdict"}, lines);
+    result_.page.verdict = lines;
+    const std::string described = std::exchange(result_.text, "");
+    for (std::size_t i = 0; i < lines.size(); ++i) result_.say((i == 0 ? "Verdict: " : "Also: ") + lines[i]);
+    result_.text += described;
   }
 
   /// Which filters have some of these, and how many.
@@ -86,20 +98,13 @@ class Reporter {
                           : converted         ? ", a radar's measurements converted"
                                               : ", a radar's measurements"));
     say(true, fmt::format("Taken for: {}", recording_.taken()));
-    const Accuracy usual = {};
-    const std::string of_each[] = {fmt::format("sigma_position_m = {}", usual.position_m.front()),
-                                   fmt::format("sigma_range_m = {}", usual.radar[0]),
-                                   fmt::format("sigma_azimuth_deg = {:.6g}", usual.radar[1] / degree)};
-    std::vector<std::string> sigmas;
-    for (std::size_t k = 0; k < outcome_.by_default.size(); ++k)
-      if (const std::size_t rows = outcome_.by_default[k]; rows > 0)
-        sigmas.push_back(of_each[k] + (rows < outcome_.measurements ? fmt::format(" (of {} rows)", rows) : ""));
-    say(!sigmas.empty(), fmt::format("Sigmas that are the defaults: {}", fmt::join(sigmas, ", ")));
+    say(!outcome_.by_default.empty(),
+        fmt::format("Sigmas that are the defaults: {}", fmt::join(outcome_.by_default, ", ")));
     say(recording_.moves_alone(),
         "There are no positions: without a given start a track starts at 0, a step before its first row, and positions "
         "are counted from there");
     say(recording_.geodetic() && !truth_known_,
-        "The σ below are those of errors that are new in each row; errors of a GNSS last, and come on top");
+        "σ assumes white measurement noise; GNSS errors are correlated, so true errors are larger");
     for (const auto& notes : {recording_.notes(), outcome_.places})
       for (const std::string& note : notes) say(true, note);
     say(recording_.has_sensors() && !outcome_.sensors.empty(), "Rows by sensor: " + numbered(outcome_.sensors));
@@ -120,14 +125,10 @@ class Reporter {
                         : fmt::format(", {} of them too short for every filter to start", short_ones)));
     say(recording_.skipped() > 0,
         fmt::format("Skipped {} rows whose time was not after that of the row before", recording_.skipped()));
-    const bool by_steps =
-        std::ranges::any_of(model_names(filters_), [](const auto& model) { return model.starts_with("dw"); });
-    say(recording_.moves_alone() && by_steps,
-        "By dwna and dwpa the way of a step is known from the velocities at its ends, and positions are too sure where "
-        "it is not; by cwna and cwpa it is not");
-    say(outcome_.predicted > 0 && by_steps,
-        "What is predicted is one step, in which dwna and dwpa have one acceleration all the time: far ahead their "
-        "sigmas are too great, where those of cwna and cwpa do not depend on steps");
+    say(outcome_.unpredicted > 0,
+        fmt::format("Nothing is predicted of {} of {} tracks, as restart_after_s goes by before that time",
+                    outcome_.unpredicted, outcome_.predicted));
+    say(options_.predict_to && outcome_.predicted == 0, "Nothing is predicted: every track ends at that time or later");
     const auto rejected = counted("rejected", &FilterOutcome::rejected);
     const auto restarts = counted("restarts", &FilterOutcome::restarts);
     say(!rejected.empty(), "Measurements that the gate turned away: " + numbered(rejected));
@@ -150,7 +151,7 @@ class Reporter {
     if (truth_known_) table.row_of(row_of(p, outcome_.raw[p], nullptr));
     for (std::size_t f = 0; f < filters_.size(); ++f)
       table.row_of(row_of(p, outcome_.filters[f].sums[p], &filters_[f]));
-    const std::string part(parts[p].name);
+    const std::string part(row_parts[p].name);
     result_.add(table, {.summary = {"results", part}, .title = fmt::format("Rows: {}", part)});
   }
 
@@ -186,7 +187,7 @@ class Reporter {
   std::vector<Field> row_of(std::size_t p, const Sums& sums, const FilterSettings* filter) const {
     const std::size_t count = filter ? sums.count() : sums.error[0].count();
     const std::string name = filter ? filter->name : measurement_name;
-    std::vector<Field> fields = {{of_words("filter", std::string(parts[p].name)), name},
+    std::vector<Field> fields = {{of_words("filter", std::string(row_parts[p].name)), name},
                                  {{.key = "rows", .header = "rows"}, count}};
     const auto add = [&](std::string_view key, const std::string& group, const std::array<RootMeanSquare, 3>& values) {
       for (std::size_t axis = 0; axis < static_cast<std::size_t>(recording_.axes()); ++axis) {
@@ -250,6 +251,21 @@ class Reporter {
   bool truth_known_ = options_.radar.sigma || recording_.has_truth();
 };
 
+/// What the proposed gate makes of outliers; nothing where there are none, or where a recording comes only once.
+std::optional<TrackOutcome> with_gate(TrackOptions options, const RecordingOptions& what,
+                                      std::vector<FilterSettings> filters, const TrackOutcome& outcome) {
+  if (outcome.outliers == 0 || what.file == "-") return std::nullopt;
+  options.output.quiet = true;
+  options.predict_to.reset();
+  for (FilterSettings& filter : filters) {
+    if (filter.gate_probability < 1.0) return std::nullopt;
+    filter.gate_probability = outlier_gate;
+    filter.smooth = filter.explain = false;
+  }
+  RecordingReader recording(what);
+  return run_track(options, recording, filters, {});
+}
+
 void track_and_report(TrackOptions options) {
   RecordingOptions what = options.recording;
   auto filters = filters_for(what, options.filters, options.radar.sigma);
@@ -275,23 +291,20 @@ void track_and_report(TrackOptions options) {
   if (files.report_wanted()) tracks.emplace(filters, recording, options.radar.sigma || recording.has_truth());
   RecordingChecks checks(recording);
   const auto see = [&](const Row& row, const LocalFrame* frame) { checks.see(row, frame); };
-  const auto complain_of = [](const std::vector<std::string>& warnings) {
-    if (!warnings.empty()) std::fflush(stdout);  // they come last where both streams are one
-    for (const auto& warning : warnings) complain("himm_demo: warning: " + warning);
-  };
   TrackOutcome outcome;
   try {
     outcome = run_track(options, recording, filters, {&files, tracks ? &*tracks : nullptr, see});
   } catch (const InputError&) {
-    complain_of(checks.findings());  // which may be why
+    for (const std::string& finding : checks.findings()) complain("himm_demo: warning: " + finding);  // may be why
     throw;
   }
+  const auto findings = checks.findings();
+  const auto gated = findings.empty() ? with_gate(options, what, filters, outcome) : std::nullopt;
   if (tracks) tracks->finish(outcome);
   Result result(options.output);
-  const auto warnings = Reporter(options, recording, filters, outcome, result).made(checks.findings());
+  Reporter(options, recording, filters, outcome, result).make(findings, gated ? &*gated : nullptr);
   if (tracks) tracks->add_to(result.page, outcome);
   result.publish(files);
-  complain_of(warnings);
 }
 
 }  // namespace

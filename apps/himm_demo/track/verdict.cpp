@@ -1,0 +1,163 @@
+#include <sigmax/estimation/chi_square.hpp>
+
+#include "himm_demo/track/track.hpp"
+
+namespace sigmax::apps {
+namespace {
+
+/// What the rules judge by.
+struct Evidence {
+  const std::string& file;
+  const std::vector<FilterSettings>& filters;
+  const TrackOutcome& outcome;
+  const TrackOutcome* gated;
+  bool rows_tell_sigmas;
+  std::string tune;  ///< the command that fits the noise
+};
+
+/// The conversion of a radar's measurements to positions is biased.
+std::string conversion(const Evidence& evidence) {
+  const Counted& unsuited = evidence.outcome.unsuited;
+  if (unsuited.rows == 0) return "";
+  return fmt::format(
+      "{}:{}: the conversion to positions is biased in {} of {} measurements (r σ_α²/σ_r ≥ {}): --set "
+      "radar_measurement=polar --set member=ukf",
+      evidence.file, unsuited.first_line, unsuited.rows, evidence.outcome.measurements, most_conversion_bias);
+}
+
+/// A gate turns a fifth of a track away, and at least five rows: the filter does not follow the target.
+std::string gate(const Evidence& evidence) {
+  for (const auto& [track, tally] : evidence.outcome.each)
+    for (std::size_t f = 0; f < evidence.filters.size(); ++f)
+      if (const std::size_t rejected = tally.nis[f].rejected; rejected >= 5 && 5 * rejected > tally.measurements)
+        return fmt::format(
+            "{}: the gate of filter '{}' turned {} of {} measurements{} away, and it lost the target: {}",
+            evidence.file, evidence.filters[f].name, rejected, tally.measurements,
+            track.empty() ? "" : fmt::format(" of track '{}'", track), evidence.tune);
+  return "";
+}
+
+/// The share of the innovations that are where 95 % should be, of the filter with the greatest.
+double share_inside(const TrackOutcome& outcome) {
+  double most = 0.0;
+  for (const FilterOutcome& one : outcome.filters)
+    most = std::max(most, one.sums[0].innovations.count() < 20 ? 1.0 : one.sums[0].innovations.share_inside());
+  return most;
+}
+
+constexpr double least_share = 0.8;
+
+/// A gate turns a few measurements away, and most of them alone, so that no filter loses its target.
+std::string outliers(const Evidence& evidence) {
+  const TrackOutcome& outcome = evidence.outcome;
+  const auto gates = [](const FilterSettings& filter) { return filter.gate_probability < 1.0; };
+  if (outcome.outliers == 0 || std::ranges::any_of(evidence.filters, gates)) return "";
+  const auto starts = [](const TrackOutcome& one) {
+    std::size_t all = 0;
+    for (const FilterOutcome& filter : one.filters) all += filter.restarts;
+    return all;
+  };
+  if (!evidence.gated)
+    return fmt::format("{}: {} of {} measurements have an NIS above {}: reject outliers with --set gate_probability={}",
+                       evidence.file, outcome.outliers, outcome.measurements, outlier_nis, outlier_gate);
+  const TrackOutcome& gated = *evidence.gated;
+  const Refused& refused = gated.refused_by_all;
+  const std::size_t lost = 5 * std::max(starts(gated), starts(outcome)) - 5 * starts(outcome);  // rows, of all filters
+  if (refused.rows == 0 || 10 * refused.rows > outcome.measurements || share_inside(gated) < least_share ||
+      2 * lost > refused.rows * evidence.filters.size())
+    return "";
+  const double km = 1e-3 * refused.metres;
+  return fmt::format(
+      "{}:{}: {} outlier{} in {} measurements, this one {} off: reject {} with --set gate_probability={}",
+      evidence.file, refused.worst_line, refused.rows, refused.rows == 1 ? "" : "s", outcome.measurements,
+      km < 10.0 ? fmt::format("{:.4g} m", refused.metres) : fmt::format("{:.0f} km", km),
+      refused.rows == 1 ? "it" : "them", outlier_gate);
+}
+
+/// Innovations are too small or too large. Where a gain is too low they last, where it is too high they alternate,
+/// which tells the noise of the target from that of the sensor.
+std::string noise(const Evidence& evidence) {
+  const TrackOutcome& outcome = evidence.outcome;
+  for (const auto& named : outcome.filters.front().sensors) {
+    const std::string& sensor = named.first;
+    const InnovationTally& first = named.second;
+    const auto of_all = [&](const auto& holds) {
+      return std::ranges::all_of(outcome.filters, [&](const FilterOutcome& one) {
+        const auto own = one.sensors.find(sensor);
+        return own != one.sensors.end() && own->second.count() >= 20 && holds(own->second);
+      });
+    };
+    const auto size = [](const InnovationTally& tally) {
+      return tally.median_nis() / chi_square_quantile(0.5, tally.expected_nis());
+    };
+    const bool large = of_all([&](const InnovationTally& tally) { return size(tally) < 0.1; });
+    const bool many_far = 100 * outcome.outliers > outcome.measurements && outcome.sensors.size() < 2;
+    const bool small =
+        of_all([&](const InnovationTally& tally) { return tally.share_inside() < least_share || many_far; });
+    if (!large && !small) continue;
+    const double lasts = first.autocorrelation();
+    const bool is_sensor = !(std::abs(lasts) > 0.3 && (lasts < 0.0) == large);
+    const std::string whose =
+        !is_sensor ? "sigma_w"
+                   : fmt::format("the {} noise of {}", outcome.by_default.empty() ? "assumed" : "default",
+                                 sensor.empty() ? "the measurements" : fmt::format("sensor '{}'", sensor));
+    const std::string by =
+        large ? fmt::format("{:.2g} times too large (median NIS {:.2g}, right is {:.2g})", 1.0 / std::sqrt(size(first)),
+                            first.median_nis(), chi_square_quantile(0.5, first.expected_nis()))
+        : many_far && first.share_inside() >= least_share
+            ? fmt::format("too small ({} of {} innovations have an NIS above {})", outcome.outliers,
+                          outcome.measurements, outlier_nis)
+            : fmt::format("too small ({:.0f} % of the innovations are where 95 % should be)",
+                          100.0 * first.share_inside());
+    return fmt::format(
+        "{}: {} is {}: {}", evidence.file, whose, by,
+        evidence.rows_tell_sigmas && is_sensor ? "see the unit of the columns of standard deviations" : evidence.tune);
+  }
+  return "";
+}
+
+/// The truth is farther from the estimates of every filter than twice what they state.
+std::string truth(const Evidence& evidence) {
+  const auto length = [](const std::array<RootMeanSquare, 3>& axes) {
+    return std::hypot(axes[0].value(), axes[1].value(), axes[2].value());
+  };
+  double error = 0.0, times = infinity;
+  for (const FilterOutcome& one : evidence.outcome.filters) {
+    const Sums& all = one.sums[0];
+    if (all.error[0].count() < std::max<std::size_t>(all.count(), 30)) return "";
+    if (const double own = length(all.error) / length(all.sigma); own < times) times = own, error = length(all.error);
+  }
+  if (!(times > 2.0)) return "";
+  return fmt::format("{}: the estimates are {:.3g} m off the truth (RMS), {:.2g} times what they state: {}",
+                     evidence.file, error, times, evidence.tune);
+}
+
+/// No rule asks another one; what brings others about stands above.
+constexpr std::array rules = {conversion, gate, outliers, noise, truth};
+
+/// The command that fits the noise to the recording.
+std::string tune_command(const RecordingOptions& recording) {
+  std::string words = "himm_demo tune " + recording.file;
+  for (const std::string& column : recording.columns) words += fmt::format(" --columns \"{}\"", column);
+  for (const std::string& choice : recording.select) words += fmt::format(" --select \"{}\"", choice);
+  if (!recording.track_id.empty()) words += fmt::format(" --track-id \"{}\"", recording.track_id);
+  if (recording.skip_bad_times) words += " --on-bad-time skip";
+  return fmt::format("fit it by {} --out best.toml, and give --config best.toml", words);
+}
+
+}  // namespace
+
+std::string verdict_of(const TrackOptions& options, const RecordingReader& recording,
+                       const std::vector<FilterSettings>& filters, const TrackOutcome& outcome,
+                       const TrackOutcome* gated) {
+  const Evidence evidence{
+      recording.file(), filters, outcome, gated, recording.tells_accuracy(), tune_command(options.recording)};
+  for (const auto rule : rules)
+    if (auto words = rule(evidence); !words.empty()) return words;
+  const InnovationTally& innovations = outcome.filters.front().sums[0].innovations;
+  if (innovations.count() < 10) return "too few measurements to judge by";
+  return fmt::format("consistent ({:.0f} % of the innovations are where 95 % should be)",
+                     100.0 * innovations.share_inside());
+}
+
+}  // namespace sigmax::apps
