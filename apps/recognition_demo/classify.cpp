@@ -98,7 +98,7 @@ class RowReader {
       for (std::size_t c = 0; c < classes_.size(); ++c)
         for (std::size_t bin = 0; bin < learned.size(); ++bin) learned[bin] += model_.counts.of(i, c)[bin];
       std::size_t bin = 0;
-      const auto share = [bin = &bin](const std::vector<double>& counts) { return counts[*bin] / sum_of(counts); };
+      const auto share = [&](const std::vector<double>& counts) { return counts[bin] / sum_of(counts); };
       while (bin < learned.size() && !(all >= enough && share(column.binned) > share(learned) + much)) ++bin;
       if (bin < learned.size())
         result.say(

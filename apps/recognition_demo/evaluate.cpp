@@ -328,6 +328,7 @@ void say_scores(const DataTable& data, const Results& results, const EvaluateOpt
       result.add(confusion_table(data, results.outcomes[i], options.foldings), {});
   const std::string use = advice(data, results, options);
   result.page.verdict.push_back(use);
+  result.fact({"advice"}, use);
   result.say("\n{}", use);
 }
 

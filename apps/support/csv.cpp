@@ -254,22 +254,16 @@ bool CsvReader::read_record(CsvRow& row) {
 
 void CsvReader::read_quoted(CsvRow& row) {
   const std::size_t opened = line_;
-  std::size_t separators = 0, rows = 0;  // in it: text may have lines, but not with as many separators each
   for (int byte = get();; byte = get()) {
     if (byte == end_of_file)
       throw error(opened, {.what = "the quote opened here is not closed at the end of the file",
                            .remedy = "see whether the file is whole, and write a quote inside quotes twice"});
     if (byte == '"') {
-      if (peek() != '"' && names().size() > 2 && rows > swallowed_.rows) swallowed_ = {opened, rows};
       if (peek() != '"') return;
       get();
     }
     append(row, byte);
-    separators += byte == separator_ ? 1U : 0U;
-    if (byte == '\n' || (byte == '\r' && peek() != '\n')) {
-      ++line_;
-      rows += std::exchange(separators, 0) + 1 == names().size() ? 1U : 0U;
-    }
+    if (byte == '\n' || (byte == '\r' && peek() != '\n')) ++line_;
   }
 }
 

@@ -79,14 +79,6 @@ class CsvReader {
   /// Reads the next record; false at the end of the file.
   bool next(CsvRow& row);
 
-  /// The most lines within quotes that have as many separators as a row, of three columns or more, and the line on
-  /// which these quotes open. Text has lines, too, but hardly ten such.
-  struct Swallowed {
-    std::size_t line = 0, rows = 0;
-    bool is_doubtful() const { return rows >= 10; }
-  };
-  Swallowed swallowed() const { return swallowed_; }
-
   /// Progress: the bytes taken so far, and the size of the file where it is known.
   std::uint64_t bytes_read() const { return bytes_before_ + position_; }
   std::optional<std::uint64_t> bytes_total() const { return bytes_total_; }
@@ -112,16 +104,10 @@ class CsvReader {
   std::uint64_t bytes_before_ = 0;
   std::optional<std::uint64_t> bytes_total_;
   std::size_t line_ = 1;
-  Swallowed swallowed_;
   char separator_ = ',';
   bool is_first_ = true;  // the next record below the header
   bool ended_ = false;    // the last record ran into the end of the file
 };
-
-/// What to say of the line and the number of rows that quotes have swallowed.
-inline constexpr std::string_view swallowed_words =
-    "from the quote on line {} to the next one there are {} lines that look like rows, and count as text: write a "
-    "quote inside quotes twice, and see where one is left open";
 
 /// Opens a file, or the standard input for "-".
 CsvReader open_csv(const std::string& file);
