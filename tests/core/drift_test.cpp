@@ -57,6 +57,9 @@ TEST(Drift, LeavesWhatIsNormalisedToRoundingUnchanged) {
   const Distribution p = compose(step, Distribution{x, {0.6, 0.4}});
   EXPECT_EQ(p[0], 0.9 * 0.6 + 0.3 * 0.4);
   EXPECT_EQ(p[1], 0.1 * 0.6 + 0.7 * 0.4);
+  const RandomVariable y{"y", 3};
+  const Distribution q{y, {0.7, 0.2, 0.1}};  // in doubles the sum is 1 − 2⁻⁵³
+  EXPECT_EQ(compose(Relation{y, y, {{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}}}, q), q);
 }
 
 }  // namespace drift_test

@@ -192,6 +192,8 @@ TEST(NetworkCompose, OfOneKindIsARelation) {
   EXPECT_CLOSE(itself.table().values(), mood_given_age.table().values(), 0.0);
   EXPECT_TRUE((std::holds_alternative<Relation<Fuzzy, Fuzzy>>(itself.relation<Fuzzy, Fuzzy>())));
   EXPECT_INVALID(("'mood'", "fuzzy", "random"), itself.relation<Random, Fuzzy>());
+  const ComposedRelation induced = compose(chain(), "age", "speed");
+  EXPECT_TRUE((std::holds_alternative<Induced<Relation<Random, Fuzzy>>>(induced.relation<Random, Fuzzy>())));
 }
 
 TEST(NetworkCompose, DoesNotAskThePriorAlongAPath) {
