@@ -10,13 +10,6 @@ TEST(DiscreteWhiteNoise, IsThatOfThePaperAtFiveHertz) {
                (SquareMatrix<3>{{0.0036, 0.036, 0.18}, {0.036, 0.36, 1.8}, {0.18, 1.8, 9}}), 1e-15);
 }
 
-TEST(DiscreteWhiteNoise, IsThatOfThePaperAtTwoSeconds) {
-  EXPECT_EQ(dwna<1>(3.0).transition(2.0), (SquareMatrix<2>{{1, 2}, {0, 1}}));
-  EXPECT_EQ(dwna<1>(3.0).process_covariance(2.0), (SquareMatrix<2>{{36, 36}, {36, 36}}));
-  EXPECT_EQ(dwpa<1>(3.0).transition(2.0), (SquareMatrix<3>{{1, 2, 2}, {0, 1, 2}, {0, 0, 1}}));
-  EXPECT_EQ(dwpa<1>(3.0).process_covariance(2.0), (SquareMatrix<3>{{36, 36, 18}, {36, 36, 18}, {18, 18, 9}}));
-}
-
 TEST(DiscreteWhiteNoise, TheGainIsHalfTheSquareTheStepAndOne) {
   EXPECT_EQ(DiscreteWhiteNoise<3>(1.0).input_gain(3.0), (Vector<3>{4.5, 3.0, 1.0}));
   EXPECT_EQ(DiscreteWhiteNoise<2>(1.0).input_gain(3.0), (Vector<2>{4.5, 3.0}));

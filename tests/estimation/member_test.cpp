@@ -11,25 +11,6 @@ concept HasMembers = requires(const Model& model) {
 };
 static_assert(HasMembers<CoordinatedTurn<2>> && !HasMembers<AnyModel>);
 
-/// Also where nobody says that the model is linear.
-TEST(Member, OfALinearModelIsTheKalmanFilter) {
-  Draws draws(1);
-  for (int run = 0; run < 50; ++run) {
-    const OwnMotion hidden{drawn_model(draws, 4, 2, 4, 0.0), 4};
-    const auto start = estimate_of<AnyModel>(draws.state(4));
-    const auto z = estimate_of<OwnSensor>(draws.state(2));
-    const AnyModel kalman = OwnLinearMotion{hidden};
-    EstimateOf<AnyModel> expected, found;
-    const auto of_kalman = update(kalman, predict(kalman, start, 1.0), z, OwnSensor{hidden.model}, expected);
-    for (const AnyModel& member : every_member(hidden)) {
-      const auto innovation = update(member, predict(member, start, 1.0), z, OwnSensor{hidden.model}, found);
-      EXPECT_CLOSE(found, expected, 1e-9);
-      EXPECT_CLOSE(innovation.log_likelihood, of_kalman.log_likelihood, 1e-9);
-      EXPECT_CLOSE(prediction_covariance(member, start, 1.0), prediction_covariance(kalman, start, 1.0), 1e-9);
-    }
-  }
-}
-
 TEST(Member, OfALinearMotionPredictsAsTheKalmanFilterExactly) {
   const EstimateOf<AnyModel> prior{Vector<9>::LinSpaced(1.0, 9.0), SquareMatrix<9>::Identity()};
   const auto expected = predict(AnyModel{dwpa<3>(2.0)}, prior, 0.3);

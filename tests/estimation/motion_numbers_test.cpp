@@ -2,13 +2,6 @@
 
 namespace motion_numbers_test {
 
-TEST(MotionNumbers, ComponentsAreOrderedByDerivative) {
-  EXPECT_EQ(detail::motion_components(1, 1), (std::vector<std::string>{"x"}));
-  EXPECT_EQ(detail::motion_components(2, 2), (std::vector<std::string>{"x", "y", "vx", "vy"}));
-  EXPECT_EQ(detail::motion_components(3, 3),
-            (std::vector<std::string>{"x", "y", "z", "vx", "vy", "vz", "ax", "ay", "az"}));
-}
-
 TEST(MotionNumbers, AParameterIsFiniteWithItsSquareAndNotNegative) {
   EXPECT_EQ(detail::motion_parameter(0.0, "q", "cwna"), 0.0);
   EXPECT_EQ(detail::motion_parameter(1e150, "q", "cwna"), 1e150);

@@ -42,12 +42,6 @@ static_assert(!Updates<Gaussian<3>, Gaussian<1>>);
 
 const Gaussian<2> start{Vector<2>(0.3, -1.0), SquareMatrix<2>::Identity()};
 
-TEST(NonlinearMotion, AJacobianIsDifferentiatedWhereItIsNotGiven) {
-  const auto step = linearised_step(Extended{Pendulum{}}, start, 0.1);
-  EXPECT_CLOSE(step.mean, (Vector<2>(0.2, -1.0 - 0.981 * std::sin(0.3))), 1e-15);
-  EXPECT_CLOSE(step.F, (SquareMatrix<2>{{1.0, 0.1}, {-0.981 * std::cos(0.3), 1.0}}), 1e-15);
-}
-
 struct WithJacobian : Pendulum {
   SquareMatrix<2> transition_jacobian(const Vector<2>&, double dt) const { return dt * SquareMatrix<2>::Identity(); }
 };

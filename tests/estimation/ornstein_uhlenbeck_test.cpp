@@ -5,23 +5,6 @@ namespace ornstein_uhlenbeck_test {
 /// A θ that makes u = θT anything between 10⁻⁹ and 100, for steps up to 10 s.
 double generated_rate() { return std::pow(10.0, number_between(-6.0, 1.0)); }
 
-TEST(OrnsteinUhlenbeck, SingersModelIsThePrintedOne) {
-  const double a = 0.7, T = 3.0, s2 = 4.0;  // Singer 1970; Bar-Shalom, Li, Kirubarajan 2001, (8.2.3-11)
-  const double e = std::exp(-a * T), e2 = e * e;
-  const auto model = singer<1>(a, std::sqrt(s2));
-  const SquareMatrix<3> F{{1, T, (a * T - 1 + e) / (a * a)}, {0, 1, (1 - e) / a}, {0, 0, e}};
-  EXPECT_CLOSE(model.transition(T), F, 1e-14);
-  const double q11 =
-      s2 / std::pow(a, 4) * (1 - e2 + 2 * a * T + 2 * std::pow(a * T, 3) / 3 - 2 * a * a * T * T - 4 * a * T * e);
-  const double q12 = s2 / std::pow(a, 3) * (e2 + 1 - 2 * e + 2 * a * T * e - 2 * a * T + a * a * T * T);
-  const double q13 = s2 / (a * a) * (1 - e2 - 2 * a * T * e);
-  const double q22 = s2 / (a * a) * (4 * e - 3 - e2 + 2 * a * T);
-  const double q23 = s2 / a * (e2 + 1 - 2 * e);
-  const double q33 = s2 * (1 - e2);
-  EXPECT_CLOSE(model.process_covariance(T), (SquareMatrix<3>{{q11, q12, q13}, {q12, q22, q23}, {q13, q23, q33}}),
-               1e-13);
-}
-
 PROPERTY(OrnsteinUhlenbeck, IsTheIntegral) {
   const double theta = number_between(0.01, 2.0), sigma = number_between(0.5, 3.0), dt = number_between(0.1, 2.0);
   const double q = 2.0 * theta * sigma * sigma;

@@ -26,23 +26,6 @@ PROPERTY(Start, AllThreeEqualTheRestatement) {
        restatement::released_start(position(z1), position(z2), position(z3), T));
 }
 
-PROPERTY(Start, ThreePointsAreExactOnAParabolaWithUnequalSteps) {
-  const double x = number_between(-5, 5), v = number_between(-5, 5), a = number_between(-5, 5);
-  const double T = number_between(0.1, 3.0), U = number_between(0.1, 3.0);
-  const auto seen = [&](double t) { return at(7.0 + t, x + t * v + 0.5 * t * t * a, 1.0); };  // t from the third point
-  const auto start = three_point_start<2>(seen(-T - U), seen(-U), seen(0.0));
-  require_near(entries(start.mean), std::vector<double>{x, -x, v, -v, a, -a}, 1e-9);
-}
-
-TEST(Start, TheReleasedVelocityLagsByHalfAStepOfAcceleration) {
-  const auto seen = [](double t) { return at(t, 3.0 * t + 2.0 * t * t, 1.0); };  // a = 4
-  const auto unbiased = three_point_start<2>(seen(0.0), seen(0.5), seen(1.0));
-  const auto released = released_start<2>(seen(0.0), seen(0.5), seen(1.0));
-  EXPECT_CLOSE(unbiased.mean(2), 7.0, 1e-13);
-  EXPECT_CLOSE(released.mean(2), 7.0 - 0.5 * 0.5 * 4.0, 1e-13);
-  EXPECT_CLOSE(released.mean(4), unbiased.mean(4), 1e-13);
-}
-
 TEST(Start, NeedsIncreasingTimes) {
   const auto seen = [](double t) { return at(t, 1.0, 1.0); };
   EXPECT_INVALID(("increasing times"), two_point_start<2>(seen(1.0), seen(1.0)));

@@ -13,26 +13,6 @@ TEST(Unscented, OfAQuadraticHasTheExactMeanAndItsOwnVariance) {
   }
 }
 
-/// x² of x ~ N(m, P): mean m² + P, variance 4m²P + 2P², covariance with x 2mP.
-TEST(Unscented, OfASquareIsExactByDefaultAndWithTheFourthMomentMatched) {
-  const double m = -1.5, P = 0.7, variance = 4.0 * m * m * P + 2.0 * P * P;
-  for (const auto& s : {UnscentedScaling{}, UnscentedScaling{1.0, 0.0, 2.0}, UnscentedScaling{0.5, 2.0, 0.0}}) {
-    const AnyModel filter = Unscented{square, s};
-    EstimateOf<AnyModel> x;
-    const auto innovation = update(filter, one_number(m, P), measured_number(5.0, 0.3), OwnSensor{square.model}, x);
-    const double S = variance + 0.3;
-    EXPECT_CLOSE(innovation.residual(0), 5.0 - m * m - P, 1e-12);
-    EXPECT_CLOSE(innovation.covariance(0), S, 1e-12);
-    EXPECT_CLOSE(x.mean(0), m + 2.0 * m * P / S * (5.0 - m * m - P), 1e-11);
-    EXPECT_CLOSE(x.covariance(0), P - 4.0 * m * m * P * P / S, 1e-11);
-
-    const auto predicted = predict(filter, one_number(m, P), 1.0);
-    EXPECT_CLOSE(predicted.mean(0), m * m + P, 1e-12);
-    EXPECT_CLOSE(predicted.covariance(0), variance + 1.0, 1e-11);
-    EXPECT_CLOSE(prediction_covariance(filter, one_number(m, P), 1.0)(0), 2.0 * m * P, 1e-12);
-  }
-}
-
 TEST(Unscented, WeightsAreThoseOfWanAndVanDerMerwe) {
   for (const auto& [alpha, beta, kappa] : {UnscentedScaling{}, UnscentedScaling{0.5, 2.0, 1.0}}) {
     const double n = 3.0, lambda = alpha * alpha * (n + kappa) - n;

@@ -8,12 +8,6 @@ PROPERTY(WhiteNoise, IsTheIntegral) {
   require_integral({3, 3, {0, 1, 0, 0, 0, 1, 0, 0, 0}}, {3, 3, {0, 0, 0, 0, 0, 0, 0, 0, q}}, cwpa<1>(q), dt);
 }
 
-PROPERTY(WhiteNoise, StepsAddUp) {
-  const double q = number_between(0.1, 5.0), s = generated_step(), t = generated_step();
-  require_steps_to_add_up(cwna<2>(q, Vector<2>(3.0, -1.0)), s, t);
-  require_steps_to_add_up(IndependentAxes<2, WhiteNoise<3>>{WhiteNoise<3>{q}, Vector<2>(3.0, -1.0)}, s, t);
-}
-
 TEST(WhiteNoise, AStepOfNoTimeIsNone) {
   EXPECT_EQ(cwpa<3>(2.0).transition(0.0), SquareMatrix<9>::Identity());
   EXPECT_EQ(cwpa<3>(2.0).process_covariance(0.0), SquareMatrix<9>::Zero());
@@ -22,6 +16,7 @@ TEST(WhiteNoise, AStepOfNoTimeIsNone) {
 TEST(WhiteNoise, AKnownAccelerationMovesAsInTheDiscreteModel) {
   const Vector<3> a(1.0, -2.0, 3.0);
   EXPECT_EQ(cwna<3>(1.0, a).known_input(2.0), dwna<3>(1.0, a).known_input(2.0));
+  EXPECT_CLOSE(WhiteNoise<3>{1.0}.input_gain(3.0), (Vector<3>(4.5, 4.5, 3.0)), 1e-15);
 }
 
 }  // namespace white_noise_test
