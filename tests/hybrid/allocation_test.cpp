@@ -5,24 +5,6 @@
 
 namespace allocation_test {
 
-TEST(Allocation, TheCounterCounts) {
-  struct alignas(64) Aligned {
-    char bytes[64];
-  };
-  // What outlives the action cannot be optimised away.
-  std::unique_ptr<int> one;
-  std::vector<double> many;
-  std::unique_ptr<Aligned> aligned;
-  EXPECT_EQ(allocations_of([] {}), 0U);
-  EXPECT_EQ(allocations_of([&] { one = std::make_unique<int>(1); }), 1U);
-  EXPECT_EQ(allocations_of([&] {
-              many.resize(100);
-              many.resize(200);
-            }),
-            2U);
-  EXPECT_EQ(allocations_of([&] { aligned = std::make_unique<Aligned>(); }), 1U);
-}
-
 /// Steps, outputs, and steps back, over a flight.
 template <class Filter>
 void allocates_nothing(Filter& filter) {

@@ -1,4 +1,3 @@
-#include "hybrid/banks.hpp"
 #include "hybrid/two_speeds.hpp"
 
 namespace fit_test {
@@ -57,49 +56,6 @@ TEST(Fit, RefusesAParameterThatCannotStart) {
   const auto loss = [](const std::vector<double>&) { return 0.0; };
   EXPECT_INVALID(("'sigma_w'", "start at 0"), fit({{.name = "sigma_w", .start = 0.0}}, loss, by_compass));
   EXPECT_INVALID(("'p'", "1.5"), fit({{.name = "p", .start = 1.5, .scale = Scale::logistic}}, loss, by_compass));
-}
-
-/// The integral over the position of exp(value(filter after a step with that position)), by rectangles, after some
-/// scans of a manoeuvring target.
-double integral(bool fuzzy, double support::Shown::*value) {
-  support::AnyFilter before(support::chosen(fuzzy));
-  for (const support::Scan& scan : support::manoeuvring_target(90)) before.step(scan);
-  auto predicted = before;
-  predicted.step(0.2);
-  const Vector<2> centre = predicted.estimate.mean.head<2>();
-  constexpr double side = 12.0;
-  double sum = 0.0;
-  for (int i = -15; i <= 15; ++i)
-    for (int j = -15; j <= 15; ++j) {
-      auto filter = before;
-      filter.step({0.2, Gaussian<2>{centre + side * Vector<2>(i, j), 400.0 * SquareMatrix<2>::Identity()}});
-      sum += side * side * std::exp(filter.*value);
-    }
-  return sum;
-}
-
-TEST(LogScore, IsOfADensityOrOfLess) {
-  EXPECT_NEAR(integral(false, &support::Shown::log_score), 1.0, 1e-3);
-  EXPECT_NEAR(integral(false, &support::Shown::log_evidence), 1.0, 1e-3);
-  const double fuzzy = integral(true, &support::Shown::log_score);
-  EXPECT_LT(fuzzy, 1.0);
-  EXPECT_GT(fuzzy, 1.0 / 3.0);
-  EXPECT_GT(integral(true, &support::Shown::log_evidence), 1.0);  // the maximum of three possible densities is none
-}
-
-TEST(LogEvidence, OfAFuzzyModeNeverBlamesAPossibleChange) {
-  for (const support::Scan& scan : support::manoeuvring_target(60)) {
-    if (!scan.z) continue;
-    double before = log_zero;
-    for (const double leaving : {0.05, 0.2, 0.5, 1.0}) {
-      support::AnyFilter filter(
-          support::with(support::chosen(true), std::vector(3, support::calm()),
-                        {{1.0, leaving, leaving}, {leaving, 1.0, leaving}, {leaving, leaving, 1.0}}));
-      filter.step(scan);
-      ASSERT_GE(filter.log_evidence, before);
-      before = filter.log_evidence;
-    }
-  }
 }
 
 }  // namespace fit_test

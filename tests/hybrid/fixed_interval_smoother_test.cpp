@@ -29,21 +29,6 @@ TEST(FixedIntervalSmoother, OfOneModelOrEqualModelsIsTheRtsSmoother) {
     });
 }
 
-TEST(FixedIntervalSmoother, OfAStaticBankSmoothsEachModelAloneAndBelievesTheSameAllTheTime) {
-  const auto scans = manoeuvring_target(60);
-  const std::vector expected{smoothed_alone(calm(), starts()[0], scans), smoothed_alone(turning(), starts()[2], scans)};
-  for_each(every_filter(), [&](const TargetChoice& any) {
-    const TargetChoice choice = with(any, {calm(), turning()}, {{1.0, 0.0}, {0.0, 1.0}});
-    const Flight flight = flown(choice, starts(choice), rows_of(scans));
-    for (std::size_t k = 0; k < flight.smoothed.size(); ++k)
-      for (std::size_t j = 0; j < 2; ++j) {
-        const Moment& found = flight.smoothed[k];
-        ASSERT_CLOSE(found.estimates[j], expected[j][k], 1e-9);
-        ASSERT_CLOSE(found.logs[j], flight.filtered.back().logs[j], 1e-9);
-      }
-  });
-}
-
 TEST(FixedIntervalSmoother, EndsAsTheFilterAndStaysNormalized) {
   for_each(every_filter(), [](const TargetChoice& choice) {
     const Flight flight = flown(choice, starts(), rows_of(manoeuvring_target()));

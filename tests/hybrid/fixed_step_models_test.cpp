@@ -150,25 +150,6 @@ TYPED_PROPERTY(FixedStepModelsOf, WithoutMemoryWeighTheirModesAsAllHistoriesToge
       });
 }
 
-/// Of models with memory the filters keep one Gaussian a mode. As long as that is exact, from one start for all models
-/// over two scans, they must know what all histories together know.
-TYPED_PROPERTY(FixedStepModelsOf, Gpb2KnowsTheMomentsOfAllHistoriesOfTwoScansAndTheViterbiFilterTheBest) {
-  constexpr bool fuzzy = std::is_same_v<TypeParam, Fuzzy>;
-  const auto generated = generated_models(fuzzy, 3, false);
-  const std::vector z{number_between(-5.0, 5.0), number_between(-5.0, 5.0)};
-  auto all = all_histories(fuzzy, generated);
-  for (const double measured : z) all.step(1.0, {measured}, {1, 1, {0.5}});
-  const auto expected = fuzzy ? all.of_mode(all.winner()) : all.estimate();
-  by_both_orders<TypeParam, 1>(generated.models, generated.rows, std::vector(3, somewhere), {},
-                               [&](auto filter, Scheme scheme) {
-                                 if (scheme == Scheme::interacting) return;
-                                 for (const double measured : z)
-                                   filter.step(1.0, {Vector<1>{measured}, SquareMatrix<1>{0.5}}, PositionSensor<1>{});
-                                 require_near(filter.estimate().mean(0), expected.mean[0], 1e-9);
-                                 require_near(filter.estimate().covariance(0, 0), expected.covariance(0, 0), 1e-9);
-                               });
-}
-
 TEST(FixedStepModels, AStepForWhichAModelIsNotGivenIsRefused) {
   const FuzzyVariable mode{"mode", 1};
   InteractingMultipleModel filter{std::tuple{accelerating}, Relation{mode, mode, {{1.0}}},

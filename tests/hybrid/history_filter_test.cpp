@@ -102,28 +102,6 @@ TEST(HistoryFilter, AModeThatNothingReachesHasNoWeight) {
   }
 }
 
-/// After one step from one estimate a mode there is no history yet that the others have merged: GPB2 and the Viterbi
-/// filter are this filter then, and without a measurement so are the IMM and the HIMM.
-TEST(HistoryFilter, IsTheSecondOrderFilterForOneStepAndWithoutAMeasurementTheInteractingOne) {
-  for (const bool fuzzy : {false, true}) {
-    TargetChoice choice = untied(fuzzy);
-    choice.entry.scales = {17.0};
-    choice.mixed_covariance = MixedCovariance::selected;
-    const auto of = [&](Scheme scheme) {
-      choice.scheme = scheme;
-      return AnyFilter(choice);
-    };
-    AnyFilter measured = of(Scheme::histories), missed = measured, pairs = of(Scheme::second_order),
-              mixed = of(Scheme::interacting);
-    measured.step(manoeuvring_target(1).front());
-    pairs.step(manoeuvring_target(1).front());
-    EXPECT_PRED_FORMAT3(same_state, measured, pairs, 1e-9);
-    missed.step(0.3);
-    mixed.step(0.3);
-    EXPECT_PRED_FORMAT3(same_state, missed, mixed, 1e-9);
-  }
-}
-
 /// The best of all histories, told from the links, ends where the filter is and has the mode's changes in its dates.
 TEST(HistoryFilter, ATargetTellsWhenItsModeChanged) {
   const TargetChoice choice =

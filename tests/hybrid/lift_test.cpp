@@ -70,21 +70,6 @@ TEST(Lift, GoingDownDropsComponents) {
   }
 }
 
-TEST(Lift, LiftedAndDroppedAgainNothingHasChanged) {
-  const std::vector<std::pair<Names, Names>> banks{{{"x", "vx", "ax", "jx"}, {"x", "vx"}},
-                                                   {{"ax", "x", "jx", "vx"}, {"vx", "x"}}};
-  holds([&] {
-    const auto large = generated_gaussian<4>();
-    const auto small = generated_gaussian<2>();
-    for (const auto& [many, few] : banks)
-      for (const Lift rule : lifts) {
-        const auto again = lifted(small, few, lifted(large, many, small, few, rule), many, rule);
-        RC_ASSERT(again.mean == small.mean);
-        RC_ASSERT(again.covariance == small.covariance);
-      }
-  });
-}
-
 TEST(Lift, ItsOwnEstimateIsUnchanged) {
   for (const Lift rule : lifts) {
     const auto found = lifted(receiver, {"a", "b", "c", "d"}, receiver, {"a", "b", "c", "d"}, rule);

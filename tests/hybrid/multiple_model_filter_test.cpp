@@ -78,51 +78,6 @@ TEST(MultipleModelFilter, OfOneModelOrOfEqualModelsIsTheKalmanFilter) {
     });
 }
 
-TEST(MultipleModelFilter, OfAModeThatNeverChangesRunsItsModelsAlone) {
-  for_each(every_filter(), [](const TargetChoice& choice) {
-    AnyFilter filter(with(choice, {calm(), turning()}, {{1.0, 0.0}, {0.0, 1.0}}));
-    std::vector<AnyFilter> each{alone(calm(), starts()[0]), alone(turning(), starts()[2])};
-    double evidence = 0.0;
-    for (const Scan& scan : manoeuvring_target(60)) {
-      filter.step(scan);
-      for (std::size_t j = 0; j < 2; ++j) {
-        each[j].step(scan);
-        ASSERT_CLOSE(filter.estimates[j], each[j].estimate, 1e-9);
-      }
-      if (scan.z) evidence += each[0].log_evidence - each[1].log_evidence;
-      ASSERT_CLOSE(filter.logs[0] - filter.logs[1], evidence, 1e-9);
-    }
-  });
-}
-
-TEST(MultipleModelFilter, RelabellingTheModelsChangesNothing) {
-  const std::vector<std::size_t> order{2, 0, 1};
-  for_each(every_reading(), [&](const TargetChoice& choice) {
-    if (choice.lift == Lift::zero || choice.scheme == Scheme::common_start ||
-        choice.mixed_covariance == MixedCovariance::released)
-      return;
-    TargetChoice relabelled = choice;
-    std::vector<State> start;
-    for (std::size_t i = 0; i < 3; ++i) {
-      relabelled.motions[i] = choice.motions[order[i]];
-      start.push_back(starts()[order[i]]);
-      for (std::size_t j = 0; j < 3; ++j) relabelled.transition[i][j] = choice.transition[order[i]][order[j]];
-    }
-    AnyFilter filter(choice), other(relabelled, start);
-    for (const Scan& scan : manoeuvring_target(110)) {
-      filter.step(scan);
-      other.step(scan);
-      for (std::size_t i = 0; i < 3; ++i) {
-        ASSERT_CLOSE(other.logs[i], filter.logs[order[i]], 1e-9);
-        ASSERT_CLOSE(other.estimates[i].mean, filter.estimates[order[i]].mean, 1e-9);
-      }
-      if (!scan.z) continue;  // the weights before a measurement may tie, and ties go by the label
-      ASSERT_EQ(order[other.winner], filter.winner);
-      ASSERT_CLOSE(other.estimate, filter.estimate, 1e-9);
-    }
-  });
-}
-
 bool positive(const Eigen::MatrixXd& covariance) {
   const Eigen::VectorXd scale = covariance.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
   Eigen::MatrixXd correlation = scale.asDiagonal() * covariance * scale.asDiagonal();
@@ -368,28 +323,6 @@ TEST(MultipleModelFilter, AFunctionOfTheStepGivesTheTransition) {
       expected.step(scan);
       filter.step(scan);
       ASSERT_PRED_FORMAT3(same_state, filter, expected, 1e-12);
-    }
-  });
-}
-
-/// Measures the position in millimetres: every Λ is 10⁻⁶ times as great.
-struct Millimetres {
-  static constexpr int seen_size = 2;
-  static constexpr int measurement_size = 2;
-  Vector<2> measure(const Vector<2>& x) const { return 1000.0 * x; }
-  SquareMatrix<2> measurement_jacobian(const Vector<2>&) const { return 1000.0 * SquareMatrix<2>::Identity(); }
-};
-
-TEST(MultipleModelFilter, ScalingTheLikelihoodChangesNothing) {
-  for_each(every_filter(), [](const TargetChoice& choice) {
-    if (choice.scheme == Scheme::histories) return;  // of which those that tie are dropped by rounding
-    AnyFilter metres(choice), millimetres(choice);
-    for (const Scan& scan : manoeuvring_target(110)) {
-      metres.step(scan);
-      scan.z ? millimetres.step(scan.dt, {1e3 * scan.z->mean, 1e6 * scan.z->covariance}, Millimetres{})
-             : millimetres.step(scan.dt);
-      ASSERT_CLOSE(millimetres.logs, metres.logs, 1e-8);
-      ASSERT_CLOSE(millimetres.estimate.mean, metres.estimate.mean, 1e-9);
     }
   });
 }
