@@ -54,7 +54,7 @@ std::string names_rows(const DataTable& table, const DataColumn& column) {
                ? ""
                : of_column(column.name, " counts the rows; leave it out by --ignore {}", typed(column.name));
   const std::size_t cells = table.size() - rows_with(column, missing_code), words = column.values.size();
-  if (cells < few_rows || 2 * words <= cells) return "";
+  if (cells < few_rows || 3 * words <= 2 * cells) return "";
   if (std::ranges::all_of(column.values, [](const auto& word) { return parse_number(word).has_value(); }))
     return of_column(column.name, ": {} numbers in {} cells count as words by --categorical; take them as numbers",
                      words, cells);
