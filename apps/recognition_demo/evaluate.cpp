@@ -1,47 +1,14 @@
-#include <array>
 #include <map>
 
 #include <sigmax/recognition/decision.hpp>
-#include <sigmax/recognition/evaluation.hpp>
 #include <sigmax/recognition/folds.hpp>
-#include <sigmax/recognition/reliability.hpp>
 
-#include "recognition_demo/folding.hpp"
+#include "recognition_demo/cross_validation.hpp"
 #include "recognition_demo/subcommands.hpp"
 #include "recognition_demo/table_checks.hpp"
-#include "support/parallel.hpp"
-#include "support/progress.hpp"
 
 namespace sigmax::apps {
 namespace {
-
-struct EvaluateOptions {
-  std::string file;
-  DataOptions data;
-  LearningOptions learning;
-  std::size_t folds = 10;
-  std::size_t foldings = 20;  ///< divisions into folds
-  std::uint64_t seed = 1;     ///< of the folds
-  std::string groups;         ///< a column whose values stay whole in a fold; or empty
-  int threads = 0;            ///< 0: as many as the machine has
-  OutputOptions output;
-};
-
-/// The scores of one classifier.
-struct Outcome {
-  std::string name;
-  std::variant<Evaluation<Random>, Evaluation<Fuzzy>> evaluation;
-  std::size_t excluded = 0;  ///< rows that excluded every class
-  Reliability reliability{};
-
-  const ConfusionMatrix& confusion() const {
-    return of_kind(evaluation, [](const auto& e) -> const ConfusionMatrix& { return e.confusion(); });
-  }
-  double ties() const {
-    return of_kind(evaluation,
-                   [](const auto& e) { return static_cast<double>(e.ties()) / static_cast<double>(e.size()); });
-  }
-};
 
 std::string described_folds(const EvaluateOptions& options) {
   return fmt::format("{} folds of {}", options.folds,
@@ -51,84 +18,6 @@ std::string described_folds(const EvaluateOptions& options) {
 std::string paired_by(const EvaluateOptions& options) {
   return options.groups.empty() ? "rows" : "values of " + options.groups;
 }
-
-/// Divides the rows into folds.
-using Deal = std::function<Folds(std::mt19937_64& generator)>;
-
-/// Of every row the classifiers that were right, a bit for each.
-using Right = std::vector<std::uint8_t>;
-
-/// The scores in one fold, by classifier; who was right is noted.
-std::vector<Outcome> classify_fold(const DataTable& data, const Folds& folds, std::size_t fold,
-                                   const LearningOptions& options, Right& right) {
-  const TaughtFold taught_fold = taught(data, folds, fold, options);
-  std::vector<Outcome> outcomes;
-  for (const Contestant& contestant : taught_fold.contestants)
-    of_kind(contestant.classifier, [&](const auto& by) {
-      outcomes.push_back({contestant.name, Evaluation{by.prior().variable()}});
-    });
-  classify_rows(data, folds, taught_fold, 0, outcomes.size(), [&](std::size_t row, std::size_t i, const Judged& by) {
-    of_kind(by.belief, [&]<class Kind>(const Belief<Kind>& belief) {
-      const bool is_right = std::get<Evaluation<Kind>>(outcomes[i].evaluation).add(data.labels[row], belief) > 0.0;
-      const unsigned bits = (i == 0 ? 0U : right[row]) | (is_right ? 1U << i : 0U);
-      right[row] = static_cast<std::uint8_t>(bits);
-      outcomes[i].reliability.add(data.labels[row], belief);
-    });
-    if (by.excluded) ++outcomes[i].excluded;
-  });
-  return outcomes;
-}
-
-/// Adds up folds in their order, and foldings.
-struct Results {
-  using TimesRight = std::array<std::uint32_t, 5>;  ///< by classifier
-
-  std::vector<Outcome> outcomes;
-  std::vector<TimesRight> times_right;  ///< by row
-  std::optional<Groups> groups;         ///< that rows are of, if --groups tells
-
-  void add(std::vector<Outcome> fold) {
-    if (outcomes.empty()) {
-      outcomes = std::move(fold);
-      return;
-    }
-    for (std::size_t i = 0; i < outcomes.size(); ++i) {
-      outcomes[i].excluded += fold[i].excluded;
-      outcomes[i].reliability.add(fold[i].reliability);
-      of_kind(outcomes[i].evaluation, [&]<class Kind>(Evaluation<Kind>& evaluation) {
-        evaluation.add(std::get<Evaluation<Kind>>(fold[i].evaluation));
-      });
-    }
-  }
-
-  /// Who was right in a whole folding.
-  void add(const Right& right) {
-    times_right.resize(right.size());
-    for (std::size_t row = 0; row < right.size(); ++row)
-      for (std::size_t i = 0; i < outcomes.size(); ++i) times_right[row][i] += right[row] >> i & 1U;
-  }
-
-  /// Right answers of a classifier less those of the first, paired by row; a row counts by its mean over the foldings.
-  /// Of groups, if there are any, the rows do not depend on chance apart: the interval is that of sums over groups.
-  Interval minus_first(std::size_t i, std::size_t foldings) const {
-    RunningMean by_row, by_group;
-    std::vector<std::pair<double, double>> sums;  // of a group's differences, and its rows
-    for (std::size_t row = 0; row < times_right.size(); ++row) {
-      const TimesRight& times = times_right[row];
-      const double difference =
-          (static_cast<double>(times[i]) - static_cast<double>(times[0])) / static_cast<double>(foldings);
-      by_row.add(difference);
-      if (!groups) continue;
-      const std::size_t group = (*groups)[row];
-      if (group >= sums.size()) sums.resize(group + 1);
-      sums[group].first += difference;
-      sums[group].second += 1.0;
-    }
-    const double groups_a_row = static_cast<double>(sums.size()) / static_cast<double>(times_right.size());
-    for (const auto& [sum, rows] : sums) by_group.add(by_row.mean() + groups_a_row * (sum - rows * by_row.mean()));
-    return groups ? by_group.interval() : by_row.interval();
-  }
-};
 
 /// Log-loss of who gives each class its share of the rows.
 double log_loss_of_shares(const DataTable& data) {
@@ -262,28 +151,6 @@ void refuse_rare_classes(const DataTable& data) {
       data.file, in_quotes(data.label), listed(each(rare, [](const auto& one) { return one.second; }), 12));
 }
 
-Results evaluated(const DataTable& data, const Deal& deal, const EvaluateOptions& options) {
-  Results results;
-  Right right(data.size());
-  const int threads = threads_or_all(options.threads);
-  Progress progress("folds", options.folds * options.foldings, options.output.quiet);
-  std::mt19937_64 generator(options.seed);
-  for (std::size_t folding = 0; folding < options.foldings; ++folding) {
-    const Folds folds = deal(generator);
-    for_each_run(
-        options.folds, threads,
-        [&](std::size_t fold) { return classify_fold(data, folds, fold, options.learning, right); },
-        [&](std::size_t, std::vector<Outcome> fold) {
-          progress.advance();
-          results.add(std::move(fold));
-        },
-        2 * static_cast<std::size_t>(threads));
-    results.add(right);
-  }
-  progress.finish();
-  return results;
-}
-
 /// Which classifier to use: sigma, unless another one is right more often beyond its interval; none of them where the
 /// most frequent class alone is, beyond chance.
 std::string advice(const DataTable& data, const Results& results, const EvaluateOptions& options) {
@@ -408,7 +275,7 @@ void run_evaluate(const EvaluateOptions& options) {
     return groups ? grouped_folds(data, *groups, options.folds, generator)
                   : stratified_folds(data.labels, options.folds, generator);
   };
-  Results results = evaluated(data, deal, options);
+  Results results = cross_validated(data, deal, options);
   results.groups = groups;
   Result result = result_of_contest("Cross-validation of " + data.file, options.output);
   result.facts("file", data.file, "rows", data.size(), "classes", data.classes, "folds", options.folds, "foldings",
