@@ -51,7 +51,7 @@ int main(int argc, char** argv) {
                            .x_label = "x",
                            .y_label = "part of the greatest value",
                            .shaded = {{x, x, "truth"}},
-                           .joined = true};
+                           .joined = 1.0};
     const auto random = follow<Random>(measurements, belief), fuzzy = follow<Fuzzy>(measurements, belief);
     study.add(truth, random, fuzzy);
     if (run == 8 && argc > 2) examples::save(belief, argv[2] + std::string("/growth_model_belief.html"));

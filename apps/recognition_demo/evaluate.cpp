@@ -225,7 +225,7 @@ LineChart reliability_chart(const Outcome& outcome, std::size_t foldings) {
       .curves = {{.name = "share, ± 95 %"}, {.name = fuzzy ? "bound: not more often than possible" : "calibrated"}},
       .greatest_y = 1.15,
       .note = "Above each point: how many classes of rows had such a degree.",
-      .joined = true};
+      .joined = 1.0};
   Curve& share = chart.curves[0];
   const auto add = [&](double degree, double value, double lower, double upper, std::string remark) {
     chart.x.push_back(degree);

@@ -145,6 +145,9 @@ constexpr std::size_t size_of(Role role) {
   return static_cast<std::size_t>(std::ranges::count(quantities, role, &Quantity::role));
 }
 
+/// Whether a header names a unit at its end: altitude_ft, Altitude (ft), X [ft].
+bool says_unit(std::string_view header, std::string_view unit);
+
 /// Calls `use(header, unit)` for each header of a quantity, in order.
 template <class Use>
 void for_each_header(const Quantity& quantity, const Use& use) {

@@ -25,7 +25,14 @@ double in_seconds(double number, double unit_s) {
   return unit_s < 1.0 ? number / std::round(1.0 / unit_s) : number * unit_s;
 }
 
-/// Whether a header names a unit at its end: altitude_ft, Altitude (ft), X [ft].
+/// Whether it is how accurate others of the row are.
+bool is_accuracy(Role role) {
+  return role == Role::covariance || role == Role::sigma_position || role == Role::sigma_all_axes ||
+         role == Role::sigma_polar;
+}
+
+}  // namespace
+
 bool says_unit(std::string_view header, std::string_view unit) {
   constexpr std::pair<std::string_view, std::string_view> others[] = {
       {"ft", "feet"}, {"m", "meters"}, {"kmh", "km/h"}, {"mps", "m/s"}, {"kt", "knots"}, {"deg", "degrees"}};
@@ -36,14 +43,6 @@ bool says_unit(std::string_view header, std::string_view unit) {
       return true;
   return false;
 }
-
-/// Whether it is how accurate others of the row are.
-bool is_accuracy(Role role) {
-  return role == Role::covariance || role == Role::sigma_position || role == Role::sigma_all_axes ||
-         role == Role::sigma_polar;
-}
-
-}  // namespace
 
 RecordingReader::RecordingReader(const RecordingOptions& options) : options_(options) {
   options_.velocity &= !options.simulated;

@@ -4,8 +4,7 @@
   const data = JSON.parse(document.getElementById('data').textContent);
   const page = document.getElementById('page');
   const hidden = new Set(data.groups.filter((group) => !group.shown).map((group) => group.name));  // switched off
-  let charts = [];           // of this view: {graph, resize}
-  let plans = [];            // functions that draw again
+  let charts = [], plans = [];  // of this view: {graph, panel, look}, and functions that draw again
 
   const dashes = [[], [8, 3], [2, 3], [9, 3, 2, 3], [14, 4], [5, 5], [3, 3, 9, 3], [1, 5]];
   const dark = () => !document.documentElement.classList.contains('printing') && matchMedia('(prefers-color-scheme: dark)').matches;
@@ -18,8 +17,8 @@
   const finite = (value) => value !== null && value !== undefined;
   const rule = 'rgba(128, 128, 128, .35)';
   const views = new Map(data.views.map((view, i) => [view.name, i]));
-  const told = (panel, value) => shown(panel.period && finite(value) ? (value % panel.period + panel.period) % panel.period : value);
-  const shown = (value) => value === null || value === undefined ? '–' : String(Number(value.toPrecision(5)));
+  const shown = (value) => !finite(value) ? '–' : String(Number(value.toPrecision(5)));
+  const momentOf = (panel, x) => finite(panel.clock) ? new Date(1000 * (panel.clock + x)).toISOString().replace('T', ' ').replace(/(\.000)?Z/, '') : shown(x);
 
   function element(name, properties = {}, ...children) {
     const made = document.createElement(name);
@@ -35,7 +34,7 @@
   const symbolOf = (i) => d3.symbol().type(d3.symbols[i % d3.symbols.length]).size(44)();
 
   function swatch(paint, dash, shape = 'line') {
-    const [path, stroke, width] = {line: ['M0,5H26', 2.5, 26], area: ['M0,5H26', 9, 26], dots: ['M6,5h.01', 6, 12],
+    const [path, stroke, width] = {line: ['M0,5H26', 2.5, 26], dots: ['M6,5h.01', 6, 12],
       crosses: ['M2,1L10,9M2,9L10,1', 1.6, 12], symbol: [dash, 0, 12]}[shape];
     const svg = d3.create('svg').attr('width', width).attr('height', 10).attr('aria-hidden', 'true');
     svg.append('path').attr('d', path).attr('stroke', paint).attr('stroke-width', stroke).attr('stroke-linecap', shape === 'dots' ? 'round' : null)
@@ -44,22 +43,43 @@
   }
 
   // A table that is made when it is opened: charts have many numbers.
-  function folded(title, make) {
-    const details = element('details', {}, element('summary', {textContent: title}));
-    details.addEventListener('toggle', () => { if (details.open && details.children.length === 1) details.append(make()); });
-    return details;
-  }
+  const folded = (title, make) =>
+    element('details', {ontoggle: ({target}) => { if (target.open && target.children.length === 1) target.append(make()); }}, element('summary', {textContent: title}));
 
   function grid(headers, rows) {
-    const head = element('tr', {}, ...headers.map((text) => element('th', {textContent: text, scope: 'col'})));
-    const body = element('tbody');
-    for (const row of rows) body.append(element('tr', {}, ...row.map((cell) => element('td', {textContent: cell}))));
-    return element('div', {className: 'rows', tabIndex: 0}, element('table', {}, element('thead', {}, head), body));
+    const row = (cells, name) => element('tr', {}, ...cells.map((textContent) => element(name, {textContent})));
+    const table = element('table', {}, element('thead', {}, row(headers, 'th')), element('tbody', {}, ...rows.map((cells) => row(cells, 'td'))));
+    return element('div', {className: 'rows', tabIndex: 0}, table);
   }
 
-  const figure = (panel, ...children) =>
-    element('figure', {className: panel.kind}, element('h2', {textContent: panel.title}), ...children,
-      panel.note && element('p', {className: 'note', textContent: panel.note}));
+  function figure({kind, title, note}, ...children) {
+    const saves = !['table', 'words'].includes(kind) && element('button', {type: 'button', className: 'save', textContent: 'Save as SVG', onclick: ({target}) => save(target.parentNode, title)});
+    return element('figure', {className: kind}, saves, element('h2', {textContent: title}), ...children, note && element('p', {className: 'note', textContent: note}));
+  }
+
+  // A picture that needs no other file: what is drawn, canvases as images, and words where they stand.
+  function save(whole, title) {
+    const svg = d3.create('svg').attr('xmlns', 'http://www.w3.org/2000/svg'), range = document.createRange();
+    const put = (kind, {x, y, width, height}) => svg.append(kind).attr('x', x).attr('y', y).attr('width', width).attr('height', height);
+    const frame = whole.getBoundingClientRect(), words = document.createTreeWalker(whole, NodeFilter.SHOW_TEXT);
+    svg.attr('viewBox', [frame.x, frame.y, frame.width, frame.height].join(' '));
+    put('rect', frame).attr('fill', css('--paper'));
+    for (const canvas of whole.querySelectorAll('canvas')) put('image', canvas.getBoundingClientRect()).attr('href', canvas.toDataURL());
+    for (const one of whole.querySelectorAll('svg')) {
+      const copy = put('svg', one.getBoundingClientRect()).node().appendChild(one.cloneNode(true)), parts = copy.querySelectorAll('*');
+      for (const [i, part] of one.querySelectorAll('*').entries())
+        for (const name of ['fill', 'stroke', 'stroke-width', 'stroke-dasharray', 'opacity', 'paint-order', 'font', 'text-anchor'])
+          parts[i].style.setProperty(name, getComputedStyle(part).getPropertyValue(name));
+    }
+    while (words.nextNode()) for (const {0: word, index} of words.currentNode.data.matchAll(/\S+/g)) {
+      range.setStart(words.currentNode, index);
+      range.setEnd(words.currentNode, index + word.length);
+      const box = range.getBoundingClientRect(), own = words.currentNode.parentNode, {color, font} = getComputedStyle(own);
+      if (box.width && !own.closest('svg, button, details')) put('text', box).text(word).attr('fill', color).attr('y', box.bottom - box.height / 4).style('font', font);
+    }
+    const file = new Blob([new XMLSerializer().serializeToString(svg.node())], {type: 'image/svg+xml'});
+    element('a', {href: URL.createObjectURL(file), download: `${title.replace(/\W+/g, '_').toLowerCase()}.svg`}).click();
+  }
 
   // ---- Charts, by dygraphs
 
@@ -110,11 +130,11 @@
   function legend(panel, row) {
     const all = new DocumentFragment(), chosen = finite(row);
     const say = (mark, text) => all.append(element('span', {}, mark, text));
-    if (chosen) say(null, `${panel.x_label}: ${shown(panel.x[row])}`);
+    if (chosen) say(null, `${panel.x_label}: ${momentOf(panel, panel.x[row])}`);
     if (chosen && panel.remarks) say(null, panel.remarks[row]);
     panel.curves.forEach((curve, i) => {
-      if (!hidden.has(curve.group)) say(swatch(colour(panel.stacked ? null : curve.group, i), dashOf(curve, i), curve.dots ? 'dots' : panel.stacked ? 'area' : 'line'),
-        ` ${curve.name}${chosen ? ` ${told(panel, curve.values[row])}` : ''}`);
+      if (!hidden.has(curve.group)) say(swatch(colour(panel.coloured ? null : curve.group, i), dashOf(curve, i), curve.dots ? 'dots' : 'line'),
+        ` ${curve.name}${chosen ? ` ${shown(curve.values[row])}` : ''}`);
     });
     for (const band of visibleHistories(panel))
       say(element('i', {className: 'history', style: `background: ${colour(band.group)}`}), ` ${band.name}${chosen ? ` ${stayAt(band, panel.x[row]) ?? '–'}` : ''}`);
@@ -122,68 +142,69 @@
     return all;
   }
 
-  // A band in one piece, which is drawn in a third of the time that those of dygraphs take.
-  function drawBand({points, dygraph, setName, drawingContext: canvas, plotArea: area, color}) {
-    const known = (point) => Number.isFinite(point.y_top) && Number.isFinite(point.y_bottom), joined = dygraph.getOption('connectSeparatedPoints');
+  // A line, after its band. They break at a row without a number or, where rows may be of other curves, if none has one for long; and where a turn is over.
+  function drawCurve({joined, course}, event) {
+    const {points, dygraph, setName, drawingContext: canvas, plotArea: area, strokeWidth, color} = event;
+    const breaks = (last, next) => (joined ? next.xval - last.xval > joined : next.idx > last.idx + 1) || course && Math.abs(next.yval - last.yval) > 180;
+    const trace = (shape, known) => {
+      canvas.beginPath();
+      shape.defined(finite).x((point) => point.canvasx).context(canvas)(points.filter(known).flatMap((point, i, all) => i && breaks(all[i - 1], point) ? [null, point] : [point]));
+    };
     canvas.save();
-    canvas.beginPath();
-    d3.area().defined(known).x((point) => point.canvasx).y0((point) => area.y + area.h * point.y_bottom).y1((point) => area.y + area.h * point.y_top)
-      .context(canvas)(joined ? points.filter(known) : points);
-    canvas.fillStyle = color;
-    canvas.globalAlpha = dygraph.getNumericOption('fillAlpha', setName);
+    Object.assign(canvas, {fillStyle: color, strokeStyle: color, lineWidth: strokeWidth, lineCap: 'round', globalAlpha: 0.18});
+    trace(d3.area().y0(({y_bottom}) => area.y + area.h * y_bottom).y1(({y_top}) => area.y + area.h * y_top), ({y_bottom, y_top}) => Number.isFinite(y_bottom + y_top));
     canvas.fill();
+    canvas.globalAlpha = 1;
+    canvas.setLineDash(dygraph.getOption('strokePattern', setName) ?? []);
+    trace(d3.line().y((point) => point.canvasy), ({yval, canvasy}) => Number.isFinite(yval) && Number.isFinite(canvasy));
+    if (strokeWidth) canvas.stroke(); else Dygraph.Plotters.linePlotter(event);
     canvas.restore();
   }
 
   // Of many points each is small and light, and a line thin, so that one sees where most are.
   const dense = (curve) => curve.values.filter(finite).length > 1000;
   const colours = (panel) => panel.curves.map((curve, i) => {
-    const paint = d3.color(css(nameOf(panel.stacked ? null : curve.group, i)));
+    const paint = d3.color(css(nameOf(panel.coloured ? null : curve.group, i)));
     if (curve.dots && dense(curve)) paint.opacity = 0.4;
     return String(paint);
   });
 
   function drawLines(panel, place) {
-    const banded = panel.curves.some((curve) => curve.lower);
-    const cell = (curve, k) => {
-      const value = curve.values[k];
-      return !banded ? value : value === null ? null : [curve.lower?.[k] ?? value, value, curve.upper?.[k] ?? value];
-    };
+    const cell = ({values, lower, upper}, k) => finite(values[k]) ? [lower?.[k] ?? values[k], values[k], upper?.[k] ?? values[k]] : null;
     const box = element('div', {className: 'chart', role: 'img', ariaLabel: `${panel.title}, ${panel.y_label}; the table below has the numbers`});
     const values = element('div', {className: 'readout'});
     const histories = panel.histories ?? [], remarks = (k) => panel.remarks ? [panel.remarks[k]] : [];
     const table = folded('Table', () => grid([panel.x_label, ...panel.curves.map((curve) => curve.name), ...histories.map((band) => band.name),
-      ...remarks(0).fill('')], panel.x.map((x, k) => [shown(x), ...panel.curves.map((curve) => told(panel, curve.values[k])),
+      ...remarks(0).fill('')], panel.x.map((x, k) => [momentOf(panel, x), ...panel.curves.map((curve) => shown(curve.values[k])),
       ...histories.map((band) => stayAt(band, x) ?? '–'), ...remarks(k)])));
     const yLabel = element('div', {className: 'y-label', textContent: panel.y_label});
     place.append(figure(panel, yLabel, box, element('div', {className: 'x-label', textContent: panel.x_label}), values, table));
-    const roll = (made) => {  // stacked areas of more rows than pixels would be a bar code: means of neighbours, until one zooms in
+    const roll = (made) => {  // lines that go up and down in more rows than pixels would be a bar code: means of neighbours, until one zooms in
       const [from, to] = made.xAxisRange(), rows = panel.x.filter((x) => from <= x && x <= to).length;
       const period = Math.max(1, Math.round(3 * rows / made.getArea().w));
       yLabel.textContent = panel.y_label + (period > 1 ? `; means of ${period} rows, zoom in for each` : '');
       if (period !== made.rollPeriod()) made.adjustRoll(period);
     };
 
-    const turns = (from, to) => {  // the numbers along an axis that begins again after a period
-      const step = [1, 5, 15, 45].find((one) => (to - from) / one <= 8) ?? 90;
-      return d3.range(Math.ceil(from / step) * step, to + 1e-6, step).map((v) => ({v, label: told(panel, v)}));
-    };
+    const turns = panel.course ? {ticker: () => d3.range(0, 361, 45).map((v) => ({v, label: v % 90 ? '' : shown(v)}))} : {};
+    const clock = finite(panel.clock) ? {pixelsPerLabel: 55, axisLabelFormatter: Dygraph.dateAxisLabelFormatter, ticker: (from, to, ...more) =>
+      Dygraph.dateTicker(...[from, to].map((x) => 1000 * (panel.clock + x)), ...more).map(({v, label}) => ({v: v / 1000 - panel.clock, label}))} : {};
     const graph = new Dygraph(box, panel.x.map((x, k) => [x, ...panel.curves.map((curve) => cell(curve, k))]), {
       labels: ['x', ...panel.curves.map((_, i) => `c${i}`)],
-      connectSeparatedPoints: panel.joined === true, customBars: banded, fillAlpha: panel.stacked ? 0.7 : 0.18, stackedGraph: panel.stacked === true,
+      connectSeparatedPoints: panel.joined !== undefined, customBars: true, labelsUTC: true,
       logscale: panel.logarithmic === true, legend: 'always', labelsDiv: values, legendFormatter: ({i}) => legend(panel, i),
-      colors: colours(panel), highlightCircleSize: 4, animatedZooms: false,
+      colors: colours(panel), highlightCircleSize: 4, animatedZooms: false, pixelRatio: panel.x.length > 1000 ? null : Math.max(2, devicePixelRatio),  // for paper, where it costs little
       series: Object.fromEntries(panel.curves.map((curve, i) => [`c${i}`, {
-        strokePattern: panel.stacked || !dashOf(curve, i).length ? null : dashOf(curve, i), strokeWidth: curve.dots ? 0 : panel.stacked ? 0.5 : dense(curve) ? 1 : 1.8,
+        strokePattern: dashOf(curve, i).length ? dashOf(curve, i) : null, strokeWidth: curve.dots ? 0 : dense(curve) ? 1 : 1.8,
         drawPoints: curve.dots, pointSize: dense(curve) ? 1 : 2,
       }])),
       visibility: panel.curves.map((curve) => !hidden.has(curve.group)),
       includeZero: !panel.logarithmic, valueRange: rangeOf(panel),
       xRangePad: 4, yRangePad: 6, gridLineColor: rule, axisLineColor: rule, gridLineWidth: 0.5,
-      axes: {x: {axisLabelFormatter: shown, pixelsPerLabel: 75}, y: {...(panel.period ? {ticker: turns} : {}), axisLabelWidth: 52, axisLabelFormatter: (y) => histories.length && y < -1e-9 ? '' : told(panel, y)}},
-      ...(banded ? {plotter: [drawBand, Dygraph.Plotters.linePlotter]} : {}), rightGap: 10,
+      axes: {x: {axisLabelFormatter: shown, pixelsPerLabel: 75, ...clock}, y: {...turns, axisLabelWidth: 52, axisLabelFormatter: (y) => histories.length && y < -1e-9 ? '' : shown(y)}},
+      plotter: (event) => drawCurve(panel, event), rightGap: 10,
       underlayCallback: (canvas, area, made) => drawMarked(panel, canvas, area, made),
-      zoomCallback: () => showReset(), ...(panel.stacked ? {drawCallback: roll} : {}),
+      zoomCallback: () => showReset(), ...(panel.coloured ? {drawCallback: roll} : {}),
       interactionModel: {...Dygraph.defaultInteractionModel, dblclick: () => showAll()},
     });
     const whole = box.closest('figure'), gone = () => panel.curves.length > 0 && panel.curves.every((curve) => hidden.has(curve.group));
@@ -212,7 +233,7 @@
     const zoom = d3.zoom().scaleExtent([1, 500]).filter(() => d3.event.type !== 'wheel' || d3.event.ctrlKey || d3.event.shiftKey)
       .on('zoom', () => { transform = d3.event.transform; whole.hidden = transform.k === 1; draw(); });
     svg.call(zoom);
-    whole.addEventListener('click', () => svg.call(zoom.transform, d3.zoomIdentity));
+    whole.onclick = () => svg.call(zoom.transform, d3.zoomIdentity);
 
     function draw() {
       const {width, height} = svg.node().getBoundingClientRect();
@@ -274,12 +295,12 @@
       if (hidden.has(trace.group)) return;
       const line = trace.shape === 'line', dots = trace.shape === 'dots', many = trace.x.length > 1000;
       const places = trace.x.map((x, k) => at(x ?? NaN, trace.y[k] ?? NaN, trace.z?.[k] ?? NaN).map((one) => Math.round(10 * one) / 10))
-        .filter(([u, v]) => Number.isFinite(u + v));
+        .filter(([u, v]) => line || Number.isFinite(u + v));
       for (const look of line && views.has(trace.name) ? ['near', 'own'] : ['own'])  // a click near a line is one on it
         opening(body.append('path'), trace.name).attr('class', line ? look : 'points').attr('stroke', colour(trace.group, i)).attr('stroke-linecap', 'round')
           .attr('stroke-width', line ? null : dots ? (many ? 2 : 3.4) : 1.6).attr('opacity', line ? null : 0.8)
           .attr('stroke-dasharray', line && !solid ? dashOf(trace, i).join(' ') : null)
-          .attr('d', line ? d3.line()(places) : places.map((place) => `M${place}${dots ? 'h.01' : 'm-4,-4l8,8m-8,0l8,-8'}`).join(''));
+          .attr('d', line ? d3.line().defined(([u, v]) => Number.isFinite(u + v))(places) : places.map((place) => `M${place}${dots ? 'h.01' : 'm-4,-4l8,8m-8,0l8,-8'}`).join(''));
       const aside = places[0]?.[0] > body.node().closest('svg').clientWidth / 2 ? -8 : 8;
       if (neutral.has(trace.group) && places.length === 1) body.append('text').attr('x', places[0][0] + aside).attr('y', places[0][1] + 4)
         .attr('text-anchor', aside < 0 ? 'end' : 'start').text(trace.name);
@@ -308,11 +329,11 @@
       const [[left, right], [top, bottom]] = [0, 1].map((i) => d3.extent(corners, (corner) => corner[i]));
       const size = Math.min((width - 110) / (right - left || 1), (height - 70) / (bottom - top || 1));
       const at = (...place) => turned(place).map((one, i) => i ? height / 2 + size * (one - (top + bottom) / 2) : width / 2 + size * (one - (left + right) / 2));
-      const path = (...places) => d3.line()(places.map((place) => at(...place)));
+      const path = (...places) => d3.line().defined(([u]) => Number.isFinite(u))(places.map((place) => at(...place)));
       svg.selectAll('*').remove();
       svg.append('path').attr('class', 'graticule').attr('d', path(...[[0, 0], [1, 0], [1, 1], [0, 1], [0, 0]].map(([i, j]) => [xs[i], ys[j], zs[0]]), [xs[0], ys[0], zs[1]]));
       for (const {x, y} of panel.traces.filter((trace) => trace.shape === 'line' && !hidden.has(trace.group)).slice(0, 1))
-        svg.append('path').attr('class', 'shadow').attr('d', path(...x.map((east, k) => [east, y[k], zs[0]])));
+        svg.append('path').attr('class', 'shadow').attr('d', path(...x.map((east, k) => [east ?? NaN, y[k] ?? NaN, zs[0]])));
       drawTraces(panel, svg, at);
       extents.forEach(([from, to], axis) => {  // its name stands beyond the end of each axis
         const [px, py] = at(...extents.map(([first, last], i) => i !== axis ? first : last + 0.07 * (i === 2 ? up : across)));
@@ -321,8 +342,7 @@
       });
     }
     svg.call(d3.drag().on('drag', () => {
-      yaw += d3.event.dx / 150;
-      pitch = Math.min(1.55, Math.max(0.02, pitch + d3.event.dy / 200));
+      [yaw, pitch] = [yaw + d3.event.dx / 150, Math.min(1.55, Math.max(0.02, pitch + d3.event.dy / 200))];
       draw();
     }));
     plans.push(draw);
@@ -353,9 +373,9 @@
         : d3.scaleSequential(dark() ? d3.interpolateViridis : (t) => d3.interpolateYlGnBu(0.05 + 0.9 * t)).domain([Math.min(0, least), greatest]);
       const left = 12 + d3.max(panel.rows, widthOf);
       const room = (box.getBoundingClientRect().width || 500) - left - 6;
-      const height = panel.rows.length > 25 ? 16 : 26, narrowest = height > 20 ? 8 + d3.max(panel.shown.flat(), widthOf) : 12;
-      const cell = {width: Math.max(narrowest, Math.min(90, room / panel.columns.length)), height};
-      const longest = d3.max(panel.columns, widthOf), slant = longest > cell.width - 4;
+      const height = panel.rows.length > 25 ? 16 : 26, narrowest = height > 20 ? 8 + d3.max(panel.shown.flat(), widthOf) : 12, longest = d3.max(panel.columns, widthOf);
+      const wide = (space) => Math.max(narrowest, Math.min(90, space / panel.columns.length)), slant = longest > wide(room) - 1;
+      const cell = {width: wide(slant ? room - 0.77 * longest : room), height};
       const top = slant ? 20 + 0.65 * longest : 22, width = left + cell.width * panel.columns.length + (slant ? 0.77 * longest : 4);
       const svg = d3.create('svg').attr('class', 'heat').attr('role', 'img').attr('aria-label', panel.title)
         .attr('width', width).attr('viewBox', `0 0 ${width} ${top + cell.height * panel.rows.length + 4}`);
@@ -490,9 +510,8 @@
   }
 
   function drawWords(panel, place) {
-    const text = element('pre', {textContent: panel.text});
-    place.append(panel.folded ? element('details', {className: 'words wide'}, element('summary', {textContent: panel.title}), text)
-      : figure(panel, text));
+    const {title, text, folded} = panel, words = element('pre', {textContent: text});
+    place.append(folded ? element('details', {className: 'words wide'}, element('summary', {textContent: title}), words) : figure(panel, words));
   }
 
   const draw = {lines: drawLines, plan: drawPlan, intervals: drawIntervals, heat: drawHeat, table: drawTable, words: drawWords};
@@ -505,8 +524,8 @@
 
   // ---- The page
 
-  const place = element('section', {className: 'panels', id: 'view'});
-  const reset = element('button', {type: 'button', id: 'reset', textContent: 'Whole time', hidden: true});
+  const [first, place, last] = ['first', 'view', 'last'].map((id) => element('section', {className: 'panels', id}));
+  const reset = element('button', {type: 'button', id: 'reset', textContent: 'Whole time', hidden: true, onclick: showAll});
   let synchronized = [];
 
   const showReset = () => { reset.hidden = !charts.some(({graph}) => graph.isZoomed('x')); };
@@ -541,46 +560,31 @@
   }
 
   function synchronize() {
-    const axes = d3.nest().key(({panel}) => panel.x_label).entries(charts);
-    synchronized = axes.map(({values}) => values.map(({graph}) => graph)).filter((graphs) => graphs.length > 1)
+    synchronized = d3.nest().key(({panel}) => panel.x_label).entries(charts).map(({values}) => values.map(({graph}) => graph)).filter((graphs) => graphs.length > 1)
       .map((graphs) => Dygraph.synchronize(graphs, {selection: true, zoom: true, range: false}));
   }
 
   function bar() {
     const made = element('div', {className: 'bar', role: 'toolbar', ariaLabel: 'What is shown'});
     if (data.views.length > 1) {
-      const select = element('select', {id: 'view-selector'},
-        ...data.views.map((view, i) => element('option', {value: i, textContent: view.name})));
-      select.addEventListener('change', () => showView(Number(select.value)));
-      made.append(element('label', {}, `${data.chooser} `, select));
+      const names = data.views.map((view, i) => element('option', {value: i, textContent: view.name}));
+      made.append(element('label', {}, `${data.chooser} `, element('select', {id: 'view-selector', onchange: ({target}) => showView(Number(target.value))}, ...names)));
     }
     for (const {name} of data.groups) {
-      const box = element('input', {type: 'checkbox', checked: !hidden.has(name)});
-      box.dataset.group = name;
-      box.addEventListener('change', () => {
-        if (box.checked) hidden.delete(name); else hidden.add(name);
-        redraw();
-      });
+      const change = ({target}) => { hidden[target.checked ? 'delete' : 'add'](name); redraw(); };
+      const box = element('input', {type: 'checkbox', checked: !hidden.has(name), onchange: change, 'data-group': name});
       made.append(element('label', {}, box, swatch(colour(name), dashOf({group: name}, 0)), name));
     }
     made.append(reset);
     return made;
   }
 
-  function redraw() {
-    charts.forEach(({look}) => look());
-    plans.forEach((again) => again());
-  }
+  const redraw = () => [...charts.map(({look}) => look), ...plans].forEach((again) => again());
 
-  reset.addEventListener('click', showAll);
   page.replaceChildren(element('h1', {textContent: data.title}));
   if (data.verdict.length) page.append(element('div', {className: 'verdict'}, ...data.verdict.map((text) => element('p', {textContent: text}))));
-  const first = element('section', {className: 'panels', id: 'first'});
-  const last = element('section', {className: 'panels', id: 'last'});
-  page.append(first);
-  let controls = null;
-  if (data.groups.length || data.views.length > 1) page.append(controls = bar());
-  page.append(place, last, element('footer', {}, element('p', {}, 'Made by ', element('code', {textContent: data.command}),
+  const controls = data.groups.length || data.views.length > 1 ? bar() : '';
+  page.append(first, controls, place, last, element('footer', {}, element('p', {}, 'Made by ', element('code', {textContent: data.command}),
     `, sigmax ${data.version}. Drawn with dygraphs (MIT licence) and D3 (BSD licence). Drag along a chart to zoom, double-click to see all; `
     + 'a map is dragged, and zoomed by double-click or Shift and the wheel.')));
   drawAll(data.panels, first);

@@ -70,11 +70,12 @@ struct Data {
         object("kind", "lines", "title", chart.title, "x_label", chart.x_label, "y_label", chart.y_label, "x", chart.x,
                "curves", chart.curves, "shaded", chart.shaded, "expected", chart.expected, "note", chart.note);
     if (!chart.remarks.empty()) json["remarks"] = chart.remarks;
-    if (chart.joined) json["joined"] = true;
-    if (chart.stacked) json["stacked"] = true;
+    if (chart.joined > 0.0) json["joined"] = of(chart.joined);
+    if (chart.coloured) json["coloured"] = true;
+    if (chart.course) json["course"] = true;
+    if (chart.clock) json["clock"] = *chart.clock;
     if (chart.logarithmic) json["logarithmic"] = true;
     if (!chart.histories.empty()) json["histories"] = of(chart.histories);
-    if (chart.period > 0.0) json["period"] = chart.period;
     if (chart.greatest_y || chart.least_y != 0.0)
       json["range"] = {chart.least_y, chart.greatest_y ? Json(*chart.greatest_y) : Json()};
     return json;
@@ -194,17 +195,40 @@ std::string shown_in(const HeatMap& map, std::size_t row, std::size_t column) {
   return !map.marked.empty() && map.marked[row][column] ? number + "*" : number;
 }
 
-void limit_axis(LineChart& chart, double share, double times) {
+void limit_axis(LineChart& chart) {
   std::vector<double> all;
   for (const Curve& curve : chart.curves)
     std::ranges::copy_if(curve.values, std::back_inserter(all), [](double value) { return std::isfinite(value); });
   if (all.empty()) return;
   std::ranges::sort(all);
-  double usual = times * all[static_cast<std::size_t>(share * static_cast<double>(all.size()))];
+  double usual = 3.0 * all[all.size() / 2];
   for (const Marked& expected : chart.expected) usual = std::max(usual, 2.0 * expected.to);
   if (all.back() <= 2.0 * usual) return;
   chart.greatest_y = usual;
   chart.note = fmt::format("The axis is cut; the greatest value is {}.", sized_text(all.back(), 1));
+}
+
+void keep_usual(LineChart& chart) {
+  std::vector<double> usual;
+  double least = 0.0, greatest = 0.0;
+  for (const Curve& curve : chart.curves)
+    for (const auto* const values : {&curve.values, &curve.lower, &curve.upper})
+      for (std::size_t k = 0; k < values->size(); ++k) {
+        const double value = (*values)[k];
+        least = std::fmin(least, value);
+        greatest = std::fmax(greatest, value);
+        if (std::isfinite(value) && k >= std::min<std::size_t>(10, values->size() / 4)) usual.push_back(value);
+      }
+  if (usual.empty()) return;
+  std::ranges::sort(usual);
+  const std::size_t cut = usual.size() / 200;  // 0.5 % at each end
+  const double low = std::min(0.0, usual[cut]), high = std::max(0.0, usual[usual.size() - 1 - cut]);
+  if (low == high || greatest - least <= 2.0 * (high - low)) return;
+  const double margin = 0.15 * (high - low);
+  chart.least_y = std::max(least, low - margin);
+  chart.greatest_y = std::min(greatest, high + margin);
+  chart.note = fmt::format("The axis is cut; numbers and bands go from {} to {}.", sized_text(least, 1),
+                           sized_text(greatest, 1));
 }
 
 std::string sound_text(std::string_view text) { return Json::parse(dumped(Json(text))).get<std::string>(); }

@@ -57,16 +57,21 @@ struct LineChart {
   std::string note{};
   std::vector<std::string> remarks{};  ///< beside the numbers at each x; empty or as long
   std::vector<HistoryBand> histories{};
-  bool joined = false;       ///< gaps of a curve are of other curves' times: it goes on over them
-  bool stacked = false;      ///< areas above each other, each with a colour of its own
+  double joined = 0.0;       ///< gaps up to so long are of other curves' rows: a curve goes on over them; 0: it breaks
+  bool coloured = false;     ///< each curve has a colour of its own, not that of its group
   bool logarithmic = false;  ///< along y
-  double period = 0.0;       ///< of y: courses are the same after 360
+  bool course = false;       ///< y is an angle, whose numbers are parts of a turn
   double least_y = 0.0;      ///< where the y axis begins, if `greatest_y` says where it ends
+  std::optional<double> clock{};  ///< where x begins, in seconds since 1970: its axis has clock times
 };
 
 /// A curve that is far above where it should be does not make all others unreadable: the axis ends at a few times what
-/// is usual, what this share of all values is below, and expected, and the note says so.
-void limit_axis(LineChart& chart, double share = 0.5, double times = 3.0);
+/// is usual, half of all values is below, and expected, and the note says so.
+void limit_axis(LineChart& chart);
+
+/// The axis ends where nearly all numbers and bands after the first ones are, if some are far beyond: a bad first
+/// estimate does not own it.
+void keep_usual(LineChart& chart);
 
 /// One trace of a map: a line or points, with a height where there is one.
 struct PlanTrace {

@@ -273,7 +273,7 @@ TEST_F(ReportPage, OfRowsWithMoreQuantitiesExpectsMoreOfTheNis) {
 }
 
 /// Speed and course are those of the velocities in estimates.csv, and so are their bands where the axes do not depend
-/// on each other; a course stays within one turn, and its curve is parted where it comes in again.
+/// on each other; a course is clockwise from y, within one turn.
 TEST_F(ReportPage, OfATurningTargetTellsHowFastAndWhichWay) {
   std::string rows = "time_s,x_m,y_m\n";
   for (int k = 0; k < 150; ++k)
@@ -283,8 +283,7 @@ TEST_F(ReportPage, OfATurningTargetTellsHowFastAndWhichWay) {
   const auto data = written(directory.path()).data;
   const auto& speed = panel_of(data.at("views").at(0), "Speed").at("curves").at(0);
   const auto& course = panel_of(data.at("views").at(0), "Course").at("curves").at(0);
-  std::size_t k = 0, c = 0, parted = 0;
-  double before = NAN;
+  std::size_t k = 0, c = 0;
   for (const std::string& line : lines_with(directory.path() / "estimates.csv", "")) {
     std::vector<std::string> cells;
     std::istringstream text(line);
@@ -295,18 +294,52 @@ TEST_F(ReportPage, OfATurningTargetTellsHowFastAndWhichWay) {
     while (speed.at("values").at(k).is_null()) ++k;
     EXPECT_NEAR(speed.at("values").at(k).get<double>(), v, 1e-4);
     EXPECT_NEAR(speed.at("upper").at(k).get<double>(), v + 2.0 * std::hypot(vx * sx, vy * sy) / v, 1e-4);
-    const std::size_t last = c;
     while (course.at("values").at(c).is_null()) ++c;
     const double degrees = course.at("values").at(c).get<double>(), radians = degrees * M_PI / 180.0;
-    EXPECT_NEAR(std::cos(radians) * v, vx, 1e-3);
-    EXPECT_NEAR(std::sin(radians) * v, vy, 1e-3);
+    EXPECT_NEAR(std::sin(radians) * v, vx, 1e-3);
+    EXPECT_NEAR(std::cos(radians) * v, vy, 1e-3);
+    EXPECT_TRUE(degrees >= 0.0 && degrees <= 360.0) << degrees;
     EXPECT_NEAR(course.at("upper").at(c).get<double>() - degrees,
                 2.0 * std::hypot(vy * sx, vx * sy) / v / v * 180.0 / M_PI, 1e-3);
-    if (std::abs(degrees - before) > 90.0) parted += c - last;
-    before = degrees;
     ++k, ++c;
   }
-  EXPECT_EQ(parted, 1U) << "150 steps of 0.06 rad are a turn and a half";
+}
+
+/// Dates make an axis of clock times, a header in knots one of knots; lines break where there is no row for long.
+TEST_F(ReportPage, OfDatesAndKnotsHasClockTimesAndKnots) {
+  std::string rows = "time_s,latitude_deg,longitude_deg,SOG_knots\n";
+  for (int k = 0; k < 60; ++k)
+    rows += fmt::format("2016-01-12T1{}:{:02}:{:02}Z,{:.6f},18,10\n", k < 40 ? 3 : 4, k / 6, k % 6 * 10, 59 + 1e-4 * k);
+  himm_demo("track", {directory.write("ship.csv", rows)}, "--set sigma_position_m=3 --set filters=himm");
+  const auto data = written(directory.path()).data;
+  const auto& view = data.at("views").at(0);
+  const auto& speed = panel_of(view, "Speed");
+  EXPECT_EQ(speed.at("x_label"), "time, UTC");
+  EXPECT_EQ(speed.at("clock"), 1452603600.0);
+  EXPECT_EQ(speed.at("joined"), 100.0);
+  EXPECT_EQ(speed.at("y_label"), "kt; band: ± 2 σ");
+  const double degree_m = 111403.0;  // along the meridian there
+  EXPECT_NEAR(speed.at("curves").at(0).at("values").at(39), 1e-5 * degree_m * 3600 / 1852, 0.1);
+  for (const char* const name : {"measurement", "himm"}) {
+    const auto& traces = view.at("panels").at(0).at("traces");
+    const auto trace = std::ranges::find_if(traces, [&](const auto& one) { return one.at("name") == name; });
+    EXPECT_EQ(std::ranges::count_if(trace->at("y"), &nlohmann::ordered_json::is_null), 1) << name;
+  }
+  const auto& weights = panel_of(view, "Mode weights of himm");
+  EXPECT_EQ(weights.at("y_label"), "possibilities");
+  EXPECT_EQ(weights.at("range"), nlohmann::ordered_json::parse("[0.0, 1.05]"));
+  expect_drawn(page());
+}
+
+TEST(Report, EndsAnAxisWhereMostNumbersAre) {
+  LineChart chart{.curves = {{.values = std::vector<double>(100, 2.0)}}};
+  chart.curves[0].values[7] = 3.0;
+  keep_usual(chart);
+  EXPECT_FALSE(chart.greatest_y);
+  chart.curves[0].values[1] = 500.0;
+  keep_usual(chart);
+  EXPECT_NEAR(*chart.greatest_y, 2.3, 1e-12);
+  EXPECT_EQ(chart.note, "The axis is cut; numbers and bands go from 0.0 to 500.0.");
 }
 
 /// A list of all tracks, which the summary has too; one that is too short says why it has no estimate.

@@ -172,6 +172,9 @@ def check_hover(browser, failures, data):
     browser.mouse("mouseMoved", box["x"] + box["width"] / 2, box["y"] + box["height"] / 2)
     text = browser.js("document.querySelector('.lines .readout').textContent")
     panel = panels_of(data, "lines")[0]
+    if "clock" in panel:
+        failures.expect(text.startswith("time, UTC: 20"), f"hovering shows no clock time: {text!r}")
+        return
     number = lambda value: "–" if value is None else json.loads(browser.js(f"JSON.stringify(String(Number(({value!r}).toPrecision(5))))"))
     at = text.split(":", 1)[-1].strip()
     rows = [k for k, x in enumerate(panel["x"]) if at.startswith(number(x))]
@@ -235,6 +238,23 @@ def check_heat(browser, failures, data):
     words = [f"{panel['rows'][0]}, {panel['columns'][0]}: {panel['shown'][0][0]}"] + (panel["texts"][0][:1] if panel["texts"] else [])
     failures.expect(text == "; ".join(word for word in words if word), f"pointing at a cell says {text!r}")
     browser.mouse("mouseMoved", 1, 1)
+
+
+def check_saving(browser, failures, data):
+    """Each chart is saved as a picture with its title, which needs no other file."""
+    saved = browser.js("""(async () => {
+        const blobs = [], texts = [];
+        URL.createObjectURL = (blob) => { blobs.push(blob); return '#'; };
+        document.querySelectorAll('button.save').forEach((one) => { if (one.getClientRects().length) one.click(); });
+        for (const blob of blobs) texts.push(new DOMParser().parseFromString(await blob.text(), 'image/svg+xml'));
+        return texts.map((one) => [[...one.querySelectorAll('text')].map((text) => text.textContent).join(' '),
+            one.querySelectorAll('image[href^="data:image/png"], svg svg path, svg svg rect').length, one.querySelectorAll('parsererror').length]); })()""")
+    titles = [panel["title"] for panel in chosen_panels(data) if panel["kind"] not in ("table", "words")]
+    shown = browser.js("[...document.querySelectorAll('figure')].filter((one) => one.getClientRects().length).map((one) => one.querySelector('h2').textContent)")
+    for title in titles:
+        words = " ".join(title.split())
+        failures.expect(title not in shown or any(words in text for text, _, _ in saved), f"{title!r} is not saved")
+    failures.expect(all(drawn > 0 and broken == 0 for _, drawn, broken in saved), "a saved chart is empty or no SVG")
 
 
 def check_search(browser, failures, data):
@@ -453,6 +473,7 @@ def main():
         check_intervals(browser, failures, data)
         check_heat(browser, failures, data)
         check_search(browser, failures, data)
+        check_saving(browser, failures, data)
         check_opening(browser, failures, data)
         if options.summary:
             path = pathlib.Path(options.summary)

@@ -26,32 +26,26 @@ void add(Curve curve, LineChart& chart, const std::vector<double>& sigma = {}) {
   chart.curves.push_back(std::move(curve));
 }
 
-/// Courses within one turn, which begins where the fewest of them are. Where a curve leaves it on one side and comes in
-/// on the other, a row of gaps parts it.
-void keep_within_one_turn(LineChart& chart) {
-  constexpr double sector = 30.0;
-  std::array<std::size_t, 12> counts{};
-  for (const Curve& curve : chart.curves)
-    for (const double value : curve.values)
-      if (!std::isnan(value)) ++counts[static_cast<std::size_t>(value / sector) % counts.size()];
-  chart.period = 360.0;
-  chart.least_y = sector * (0.5 + static_cast<double>(std::ranges::min_element(counts) - counts.begin()));
-  chart.greatest_y = chart.least_y + chart.period;
-  for (Curve& curve : chart.curves)
-    for (std::size_t k = 0; k < chart.x.size(); ++k)
-      if (curve.values[k] < chart.least_y)
-        for (auto* const values : {&curve.values, &curve.lower, &curve.upper})
-          if (!values->empty()) (*values)[k] += chart.period;
-  for (std::size_t k = chart.x.size(); k-- > 1;) {
-    if (std::ranges::none_of(
-            chart.curves, [k](const Curve& curve) { return std::abs(curve.values[k] - curve.values[k - 1]) > 180.0; }))
-      continue;
-    const auto at = static_cast<std::ptrdiff_t>(k);
-    chart.x.insert(chart.x.begin() + at, 0.5 * (chart.x[k - 1] + chart.x[k]));
-    for (Curve& curve : chart.curves)
-      for (auto* const values : {&curve.values, &curve.lower, &curve.upper})
-        if (!values->empty()) values->insert(values->begin() + at, nan);
-  }
+/// The unit of the recording's own speeds, whether they count or not; else m/s.
+const Unit& unit_of_speeds(const RecordingReader& recording) {
+  for (const std::string& header : recording.csv().names())
+    for (const Unit& unit : std::span(units::speeds).subspan(1, 3))  // climbs are in the others
+      if (says_unit(header, unit.suffix)) return unit;
+  return units::speeds[0];
+}
+
+void put(LineChart chart, std::vector<Panel>& panels) {
+  if (!chart.greatest_y && !chart.logarithmic) keep_usual(chart);
+  if (!chart.curves.empty()) panels.emplace_back(std::move(chart));
+}
+
+/// A time for which no line goes on without a number: ten times as long as nine of ten steps are at most.
+double longest_step(const std::vector<double>& times) {
+  std::vector<double> steps;
+  for (std::size_t k = 1; k < times.size(); ++k)
+    if (times[k] > times[k - 1]) steps.push_back(times[k] - times[k - 1]);
+  std::ranges::sort(steps);
+  return steps.empty() ? 1.0 : 10.0 * steps[steps.size() * 9 / 10];
 }
 
 /// A round number of degrees that parts a range into three to seven.
@@ -60,60 +54,44 @@ double round_step(double range) {
   return power * (range <= 14.0 * power ? 2.0 : range <= 35.0 * power ? 5.0 : 10.0);
 }
 
-std::string degrees_text(double value, const char* positive, const char* negative) {
-  return fmt::format("{:.6g}° {}", std::abs(value), value < 0.0 ? negative : positive);
-}
-
 /// Parallels and meridians about a place that cross what a map shows, at round degrees.
 std::vector<GraticuleLine> graticule(const Geodetic& anchor, const Plan& plan) {
   const auto [least_x, greatest_x, least_y, greatest_y] = plan.bounds();
   const double half = 0.6 * std::max(greatest_x - least_x, greatest_y - least_y);
-  if (!(half > 0.0)) return {};
-  // A map may be half as wide again as it is high.
-  const double middle = 0.5 * (least_x + greatest_x), west = middle - 1.4 * half, east = middle + 1.4 * half;
-  const double south = 0.5 * (least_y + greatest_y) - half, north = south + 2.0 * half;
-  constexpr int points = 24;
+  if (!(half > 1e-3)) return {};
   const LocalFrame frame(anchor, 2);
-  double least_latitude = 90.0, greatest_latitude = -90.0, least_longitude = 540.0, greatest_longitude = -540.0;
-  for (int i = 0; i <= points; ++i)
-    for (const auto& [x, y] : {std::pair{west + (east - west) * i / points, south},
-                               {west + (east - west) * i / points, north},
-                               {west, south + (north - south) * i / points},
-                               {east, south + (north - south) * i / points}}) {
-      const Geodetic place = frame.to_geodetic({x, y, 0.0});
+  std::array<double, 2> least{90.0, 540.0}, greatest{-90.0, -540.0};  // latitude, longitude
+  for (const double east : {-2.0, 0.0, 2.0})                          // a map may be twice as wide as it is high
+    for (const double north : {-1.0, 1.0}) {
+      const Geodetic place =
+          frame.to_geodetic({0.5 * (least_x + greatest_x) + east * half, 0.5 * (least_y + greatest_y) + north * half});
       // The meridian of 180° is no border here.
       const double longitude = anchor.longitude_deg + std::remainder(place.longitude_deg - anchor.longitude_deg, 360.0);
-      least_latitude = std::min(least_latitude, place.latitude_deg);
-      greatest_latitude = std::max(greatest_latitude, place.latitude_deg);
-      least_longitude = std::min(least_longitude, longitude);
-      greatest_longitude = std::max(greatest_longitude, longitude);
+      least = {std::min(least[0], place.latitude_deg), std::min(least[1], longitude)};
+      greatest = {std::max(greatest[0], place.latitude_deg), std::max(greatest[1], longitude)};
     }
   std::vector<GraticuleLine> lines;
-  const auto add = [&](std::string label, const auto& place_at) {
-    GraticuleLine line{std::move(label), {}, {}};
-    for (int i = 0; i <= points; ++i) {
-      const Position at = frame.to_local(place_at(static_cast<double>(i) / points));
-      line.x.push_back(at[0]);
-      line.y.push_back(at[1]);
+  for (const std::size_t i : {0U, 1U}) {
+    const double step = round_step((greatest[i] - least[i]) / (1.0 + 0.5 * static_cast<double>(i)));
+    for (double round = std::ceil(least[i] / step) * step; round <= greatest[i]; round += step) {
+      const double shown = std::remainder(round, 360.0);
+      GraticuleLine line{fmt::format("{:.6g}° {}", std::abs(shown), "NSEW"[2 * i + (shown < 0.0 ? 1 : 0)]), {}, {}};
+      for (int k = 0; k <= 24; ++k) {
+        const double along = least[1 - i] + (greatest[1 - i] - least[1 - i]) * k / 24.0;
+        const Position at = frame.to_local(i == 0 ? Geodetic{round, along, 0.0} : Geodetic{along, round, 0.0});
+        line.x.push_back(at[0]);
+        line.y.push_back(at[1]);
+      }
+      lines.push_back(std::move(line));
     }
-    lines.push_back(std::move(line));
-  };
-  const double tall = greatest_latitude - least_latitude, wide = greatest_longitude - least_longitude;
-  const auto for_each_round = [](double least, double greatest, const auto& use) {
-    const double step = round_step(greatest - least), first = std::ceil(least / step) * step;
-    for (int i = 0; i < 8 && first + i * step <= greatest; ++i) use(first + i * step);
-  };
-  for_each_round(least_latitude, greatest_latitude, [&](double latitude) {
-    add(degrees_text(latitude, "N", "S"), [&](double part) {
-      return Geodetic{latitude, least_longitude + part * wide, 0.0};
-    });
-  });
-  for_each_round(least_longitude, greatest_longitude, [&](double longitude) {
-    add(degrees_text(std::remainder(longitude, 360.0), "E", "W"), [&](double part) {
-      return Geodetic{least_latitude + part * tall, longitude, 0.0};
-    });
-  });
+  }
   return lines;
+}
+
+void add(const Position& at, bool high, PlanTrace& trace) {
+  trace.x.push_back(at[0]);
+  trace.y.push_back(at[1]);
+  if (high) trace.z.push_back(at[2]);
 }
 
 /// Least and greatest x and y of all but the outermost places, with a margin, where those are so many times as far.
@@ -123,6 +101,7 @@ std::vector<double> usual_bounds(const Plan& plan, double times) {
   for (const auto axis : {&PlanTrace::x, &PlanTrace::y}) {
     std::vector<double> values;
     for (const PlanTrace& one : plan.traces) values.insert(values.end(), (one.*axis).begin(), (one.*axis).end());
+    std::erase_if(values, [](double value) { return std::isnan(value); });  // gaps
     if (values.empty()) return {};
     std::ranges::sort(values);
     const std::size_t cut = values.size() / 50;
@@ -164,22 +143,19 @@ void TrackPage::add_to(Report& page, const TrackOutcome& outcome) const {
   for (const auto& [name, track] : tracks_) taken += track.rows.taken();
   if (kept_ < taken)
     page.verdict.push_back(
-        fmt::format("The charts are thinned: of {} rows {} are drawn, with the least and the greatest place, error, "
-                    "speed, climb, weight and NIS of every stretch.",
-                    taken, kept_));
+        fmt::format("The charts are thinned: {} of {} rows are drawn, with all peaks.", kept_, taken));
 }
 
 LineChart TrackPage::chart(const Track& track, std::string title, std::string y_label) const {
   LineChart made{.title = std::move(title),
-                 .x_label = "time since the first row, s",
+                 .x_label = clock_ ? "time, UTC" : "time since the first row, s",
                  .y_label = std::move(y_label),
-                 .x = track.rows.times()};
+                 .x = track.rows.times(),
+                 .joined = longest_step(track.rows.times()),
+                 .clock = clock_};
   for (double& time : made.x) time -= track.first_time;
-  made.joined = true;
-  // Restarts as lines, a few at most: more would be a shade.
-  if (track.restarts.size() > 20) made.note = "There are too many restarts to be marked.";
-  for (std::size_t i = 0; i < track.restarts.size() && track.restarts.size() <= 20; ++i) {
-    const Mark& restart = track.restarts[i];
+  for (const Mark& restart : track.restarts) {
+    if (track.restarts.size() > 20) break;  // they would be a shade; the map has them
     const double time = restart.time - track.first_time;
     made.shaded.push_back({time, time, filters_[restart.filter].name + " restarts"});
   }
@@ -202,9 +178,6 @@ std::vector<Panel> TrackPage::charts(const Track& track) const {
   std::vector<Panel> panels;
   const bool geodetic = recording_.on_the_earth();
   const int axes = recording_.axes();
-  const auto put = [&](LineChart made) {
-    if (!made.curves.empty()) panels.emplace_back(std::move(made));
-  };
   const auto motion = [&](const char* title, const std::string& y_label, std::size_t truth, std::size_t estimate,
                           std::size_t sigma) {
     LineChart made = chart(track, title, y_label + "; band: ± 2 σ");
@@ -216,32 +189,35 @@ std::vector<Panel> TrackPage::charts(const Track& track) const {
       add({filters_[f].name, filters_[f].name, values(column(f, estimate))}, made, track.rows.column(column(f, sigma)));
     return made;
   };
-  if (axes == 1) put(motion("Position", "x, m", truth_at, position_at, sigma_at));
-  LineChart speed = motion(axes == 1 ? "Velocity" : "Speed", axes == 3 ? "in plan, m/s" : "m/s", truth_moves_at,
-                           moves_at, moves_at + 1);
-  for (Curve& curve : speed.curves)
-    for (double& lower : curve.lower)
-      if (axes > 1 && lower < 0.0) lower = 0.0;
-  if (axes > 1) limit_axis(speed, 0.98, 1.5);  // the first rows may tell hardly any
-  put(std::move(speed));
-  LineChart course = motion("Course", geodetic ? "° from north, clockwise" : "° from x, counter-clockwise",
-                            truth_moves_at + 1, moves_at + 2, moves_at + 3);
-  course.joined = false;  // nobody knows it in between
-  keep_within_one_turn(course);
-  put(std::move(course));
-  if (axes == 3) {
-    put(motion("Height", geodetic ? "above the ellipsoid, m" : "z, m", truth_at + 2, position_at + 2, sigma_at + 2));
-    put(motion("Climb", "m/s", truth_moves_at + 2, moves_at + 4, moves_at + 5));
+  if (axes == 1) put(motion("Position", "x, m", truth_at, position_at, sigma_at), panels);
+  const Unit& unit = unit_of_speeds(recording_);
+  LineChart speed = motion(axes == 1 ? "Velocity" : "Speed", (axes == 3 ? "in plan, " : "") + std::string(unit.words),
+                           truth_moves_at, moves_at, moves_at + 1);
+  for (Curve& curve : speed.curves) {
+    for (auto* const values : {&curve.values, &curve.lower, &curve.upper})
+      for (double& value : *values) value /= unit.value;
+    for (double& lower : curve.lower) lower = axes > 1 ? std::fmax(0.0, lower) : lower;
   }
-  for (std::size_t f = 0; f < filters_.size(); ++f) put(modes(track, f));
-  for (LineChart& made : error_charts(track)) put(std::move(made));
+  put(std::move(speed), panels);
+  LineChart course = motion("Course", geodetic ? "° clockwise from north" : "° clockwise from y", truth_moves_at + 1,
+                            moves_at + 2, moves_at + 3);
+  course.joined = 0.0;  // nobody knows it in between
+  course.course = true;
+  course.greatest_y = 360.0;
+  put(std::move(course), panels);
+  if (axes == 3) {
+    put(motion("Height", geodetic ? "above the ellipsoid, m" : "z, m", truth_at + 2, position_at + 2, sigma_at + 2),
+        panels);
+    put(motion("Climb", "m/s", truth_moves_at + 2, moves_at + 4, moves_at + 5), panels);
+  }
+  for (std::size_t f = 0; f < filters_.size(); ++f) put(modes(track, f), panels);
+  add_errors(track, panels);
   add_trust(track, panels);
   return panels;
 }
 
 /// Errors, a chart for each axis, where the truth is known; else one chart of standard deviations.
-std::vector<LineChart> TrackPage::error_charts(const Track& track) const {
-  std::vector<LineChart> all;
+void TrackPage::add_errors(const Track& track, std::vector<Panel>& panels) const {
   LineChart sigmas = chart(track, "Standard deviations", "σ, m");
   for (std::size_t axis = 0; axis < static_cast<std::size_t>(recording_.axes()); ++axis) {
     const std::string along = (recording_.on_the_earth() ? geodetic_names : cartesian_names)[axis];
@@ -253,22 +229,19 @@ std::vector<LineChart> TrackPage::error_charts(const Track& track) const {
       add({filter, filter, track.rows.column(column(f, error_at + axis))}, errors, sigma);
       add({.name = filter + " " + along, .group = filter, .values = sigma, .dash = static_cast<int>(axis)}, sigmas);
     }
-    if (truth_known_) all.push_back(std::move(errors));
+    if (truth_known_) put(std::move(errors), panels);
   }
-  if (!truth_known_) all.push_back(std::move(sigmas));
-  return all;
+  if (!truth_known_) put(std::move(sigmas), panels);
 }
 
-/// When it manoeuvred, by one filter: the weights of its modes above each other.
+/// When it manoeuvred, by one filter: the weights of its modes.
 LineChart TrackPage::modes(const Track& track, std::size_t filter) const {
   const FilterSettings& own = filters_[filter];
-  LineChart made = chart(track, "Mode weights of " + own.name,
-                         own.fuzzy ? "possibilities, one above the other" : "probabilities, one above the other");
-  made.stacked = true;
-  made.greatest_y = own.fuzzy ? static_cast<double>(own.models.size()) : 1.0;
+  LineChart made = chart(track, "Mode weights of " + own.name, own.fuzzy ? "possibilities" : "probabilities");
+  made.coloured = true;
+  made.greatest_y = 1.05;
   for (std::size_t j = 0; j < models_.size(); ++j)
-    add({.name = models_[j], .group = own.name, .values = track.rows.column(column(filter, weights_at + j)), .dash = 0},
-        made);
+    add({models_[j], own.name, track.rows.column(column(filter, weights_at + j)), {}, {}, static_cast<int>(j)}, made);
   add_history(track, filter, made);
   return made;
 }
@@ -298,7 +271,7 @@ void TrackPage::add_trust(const Track& track, std::vector<Panel>& panels) const 
   }
   std::ranges::sort(means);  // the first rows, and rest, would take half of the axis
   nis.least_y = means.empty() ? 0.1 : std::clamp(0.8 * means[means.size() / 100], 0.01, 0.3);
-  if (!nis.curves.empty()) panels.emplace_back(std::move(nis));
+  put(std::move(nis), panels);
   for (std::size_t s = 0; s < std::min(most_sensors, sensors_.size()); ++s) {
     constexpr double end = 5.0;
     LineChart made = chart(track, sensors_[s].empty() ? "Innovations" : "Innovations of " + sensors_[s],
@@ -316,7 +289,7 @@ void TrackPage::add_trust(const Track& track, std::vector<Panel>& panels) const 
         add(std::move(one), made);
       }
     }
-    if (!made.curves.empty()) panels.emplace_back(std::move(made));
+    put(std::move(made), panels);
   }
 }
 
@@ -338,41 +311,45 @@ void TrackPage::add_history(const Track& track, std::size_t filter, LineChart& m
   modes.histories.push_back(std::move(band));
 }
 
+/// Gives a trace every so many places by their columns; the line breaks where none is known for long.
+PlanTrace TrackPage::traced(PlanTrace made, const Track& track, std::size_t from, std::size_t every) const {
+  const auto x = track.rows.column(from), y = track.rows.column(from + 1), z = track.rows.column(from + 2);
+  const auto times = track.rows.times();
+  const double longest = static_cast<double>(every) * longest_step(times);
+  double before = nan;
+  for (std::size_t k = 0; k < x.size(); ++k) {
+    if ((k % every != 0 && k + 1 != x.size()) || std::isnan(x[k]) || std::isnan(y[k])) continue;
+    if (times[k] - before > longest) add({nan, nan, nan}, recording_.axes() == 3, made);
+    before = times[k];
+    add({x[k], y[k], z[k]}, recording_.axes() == 3, made);
+  }
+  return made;
+}
+
 Plan TrackPage::plan(const std::string& name, const Track& track) const {
-  const bool geodetic = track.anchor.has_value(), high = recording_.axes() == 3;
-  Plan plan{
-      .title = "Track " + name, .x_label = geodetic ? "east, m" : "x, m", .y_label = geodetic ? "north, m" : "y, m"};
-  if (name == "all rows") plan.title = "Track";
-  const auto put = [high](PlanTrace& trace, const Position& at) {
-    trace.x.push_back(at[0]);
-    trace.y.push_back(at[1]);
-    if (high) trace.z.push_back(at[2]);
+  const bool geodetic = track.anchor.has_value();
+  Plan plan{.title = name == "all rows" ? "Track" : "Track " + name,
+            .x_label = geodetic ? "east, m" : "x, m",
+            .y_label = geodetic ? "north, m" : "y, m"};
+  const auto put = [&](PlanTrace made) {
+    if (!made.x.empty()) plan.traces.push_back(std::move(made));
   };
-  const auto add = [&](const std::string& of, PlanTrace::Shape shape, std::size_t from) {
-    const auto x = track.rows.column(from), y = track.rows.column(from + 1), z = track.rows.column(from + 2);
-    PlanTrace trace{.name = of, .group = of, .shape = shape};
-    for (std::size_t k = 0; k < x.size(); ++k)
-      if (!std::isnan(x[k]) && !std::isnan(y[k])) put(trace, {x[k], y[k], z[k]});
-    if (!trace.x.empty()) plan.traces.push_back(std::move(trace));
-  };
-  add(measurement_name, PlanTrace::Shape::dots, plot_at);
-  if (truth_known_) add(truth_name, PlanTrace::Shape::line, truth_at);
+  put(traced({measurement_name, measurement_name, PlanTrace::Shape::dots}, track, plot_at));
+  if (truth_known_) put(traced({truth_name, truth_name}, track, truth_at));
   for (std::size_t f = 0; f < filters_.size(); ++f)
-    add(filters_[f].name, PlanTrace::Shape::line, column(f, position_at));
-  const auto crosses = [&](const char* what, const std::vector<Mark>& marks) {
+    put(traced({filters_[f].name, filters_[f].name}, track, column(f, position_at)));
+  const auto crosses = [&](const std::string& what, const std::vector<Mark>& marks) {
     for (std::size_t f = 0; f < filters_.size(); ++f) {
-      PlanTrace trace{.name = fmt::format("{} {}", what, filters_[f].name),
-                      .group = filters_[f].name,
-                      .shape = PlanTrace::Shape::crosses};
+      PlanTrace made{what + filters_[f].name, filters_[f].name, PlanTrace::Shape::crosses};
       for (const Mark& mark : marks)
-        if (mark.filter == f) put(trace, mark.position);
-      if (!trace.x.empty()) plan.traces.push_back(std::move(trace));
+        if (mark.filter == f) add(mark.position, recording_.axes() == 3, made);
+      put(std::move(made));
     }
   };
   for (const auto& [at, names] : stations_)
     plan.traces.push_back({list_of(names), measurement_name, PlanTrace::Shape::crosses, {at[0]}, {at[1]}});
-  crosses("rejected by", track.rejections);
-  crosses("restart of", track.restarts);
+  crosses("rejected by ", track.rejections);
+  crosses("restart of ", track.restarts);
   if (track.rejections.size() == most_marks || track.restarts.size() == most_marks)
     plan.note = fmt::format("Only the first {} rejections and restarts are marked.", most_marks);
   plan.focus = usual_bounds(plan, 10.0);
@@ -392,20 +369,20 @@ Plan TrackPage::map_of_all() const {
   for (const Named* const one : longest_first()) {
     const auto& [name, track] = *one;
     const bool followed = track.estimates > 0;
-    PlanTrace trace{.name = name, .shape = followed ? PlanTrace::Shape::line : PlanTrace::Shape::dots};
-    const std::size_t from = followed ? column(0, position_at) : plot_at;
-    const auto x = track.rows.column(from), y = track.rows.column(from + 1), z = track.rows.column(from + 2);
-    std::optional<LocalFrame> own;
-    if (track.anchor) own.emplace(*track.anchor, recording_.axes());
-    if (own && !frame) frame = own;
-    for (std::size_t k = 0; k < x.size(); ++k) {
-      if ((k % step != 0 && k + 1 != x.size()) || std::isnan(x[k]) || std::isnan(y[k])) continue;
-      Position at{x[k], y[k], std::isnan(z[k]) ? 0.0 : z[k]};
-      if (own) at = frame->to_local(own->to_geodetic(at));
-      trace.x.push_back(at[0]);
-      trace.y.push_back(at[1]);
+    PlanTrace made{.name = name, .shape = followed ? PlanTrace::Shape::line : PlanTrace::Shape::dots};
+    made = traced(std::move(made), track, followed ? column(0, position_at) : plot_at, step);
+    if (track.anchor) {
+      const LocalFrame own(*track.anchor, recording_.axes());
+      if (!frame) frame = own;
+      for (std::size_t k = 0; k < made.x.size(); ++k) {
+        const double z = made.z.empty() || std::isnan(made.z[k]) ? 0.0 : made.z[k];
+        const Position at = frame->to_local(own.to_geodetic({made.x[k], made.y[k], z}));
+        made.x[k] = at[0];
+        made.y[k] = at[1];
+      }
     }
-    if (!trace.x.empty()) plan.traces.push_back(std::move(trace));
+    made.z.clear();
+    if (!made.x.empty()) plan.traces.push_back(std::move(made));
   }
   plan.focus = usual_bounds(plan, 2.0);
   if (frame) plan.graticule = graticule(frame->origin(), plan);

@@ -12,10 +12,9 @@ constexpr std::size_t most_tracks = 200;
 using Moves = std::array<double, 6>;
 
 /// How fast in plan, which way and how fast up a velocity is, with its covariance: to first order in its errors. A
-/// course that may as well be any, ± 2 σ of more than a right angle, is not known. Along one axis there is the velocity
-/// alone.
-Moves moves_of(const std::array<double, 3>& velocity, const std::array<Position, 3>& covariance, int axes,
-               bool from_north) {
+/// course, clockwise from north or y, that may as well be any, ± 2 σ of more than a right angle, is not known. Along
+/// one axis there is the velocity alone.
+Moves moves_of(const std::array<double, 3>& velocity, const std::array<Position, 3>& covariance, int axes) {
   Moves moves{nan, nan, nan, nan, nan, nan};
   if (axes == 1) return {velocity[0], std::sqrt(covariance[0][0]), nan, nan, nan, nan};
   const double speed = std::hypot(velocity[0], velocity[1]);
@@ -25,8 +24,7 @@ Moves moves_of(const std::array<double, 3>& velocity, const std::array<Position,
   moves[1] = std::sqrt(std::max(0.0, c * c * covariance[0][0] + both + s * s * covariance[1][1]));
   const double across = std::sqrt(std::max(0.0, s * s * covariance[0][0] - both + c * c * covariance[1][1]));
   if (speed > 0.0 && across / speed < 45.0 * degree) {
-    const double angle = from_north ? std::atan2(c, s) : std::atan2(s, c);
-    moves[2] = std::remainder(angle / degree - 180.0, 360.0) + 180.0;
+    moves[2] = std::remainder(std::atan2(c, s) / degree - 180.0, 360.0) + 180.0;
     moves[3] = across / speed / degree;
   }
   if (axes == 3) {
@@ -42,6 +40,9 @@ Moves moves_of(const std::array<double, 3>& velocity, const std::array<Position,
 TrackPage::Track* TrackPage::track_of(const Row& row) {
   if (const auto found = tracks_.find(row.track); found != tracks_.end()) return &found->second;
   if (tracks_.size() == most_tracks) return nullptr;
+  const double time = row.plot.time;
+  const bool has_date = recording_.times_are_numbers() ? time >= 1e9 && time < 4e9 : !recording_.times_of_day();
+  if (tracks_.empty() && has_date) clock_ = time;
   std::vector<std::size_t> watched = {plot_error_at, plot_error_at + 1, plot_error_at + 2};
   for (std::size_t f = 0; f < filters_.size(); ++f)
     for (std::size_t i = 0; i < weights_at + models_.size(); ++i)
@@ -49,7 +50,8 @@ TrackPage::Track* TrackPage::track_of(const Row& row) {
         watched.push_back(column(f, i));
   const std::size_t least = 4 * watched.size();
   Thinned rows(column(filters_.size(), 0), std::max(most_rows(), least), std::move(watched));
-  Track track{.first_time = row.plot.time, .rows = std::move(rows), .recent = std::vector<Recent>(filters_.size())};
+  Track track{
+      .first_time = clock_.value_or(time), .rows = std::move(rows), .recent = std::vector<Recent>(filters_.size())};
   return &tracks_.emplace(row.track, std::move(track)).first->second;
 }
 
@@ -127,7 +129,7 @@ void TrackPage::measured(const Row& row, const std::optional<Position>& position
       for (std::size_t i = 0; i < 3; ++i)
         velocity[i] = turn[i][0] * there[0] + turn[i][1] * there[1] + turn[i][2] * there[2];
     }
-    const Moves all = moves_of(velocity, {}, recording_.axes(), recording_.on_the_earth());
+    const Moves all = moves_of(velocity, {}, recording_.axes());
     constexpr double least_speed = 1.0;  // at rest a recorder's noise goes all ways
     for (std::size_t i = 0; moves && i < 3; ++i)
       if (i != 1 || all[0] >= least_speed) numbers[truth_moves_at + i] = all[2 * i];
@@ -156,7 +158,7 @@ void TrackPage::estimated(const Row& row, std::size_t filter, const TargetPoint&
       velocity[i] = point.mean[axes + i];
       for (std::size_t j = 0; j < axes; ++j) covariance[i][j] = point.covariance[(axes + i) * n + axes + j];
     }
-    std::ranges::copy(moves_of(velocity, covariance, recording_.axes(), recording_.on_the_earth()), numbers + moves_at);
+    std::ranges::copy(moves_of(velocity, covariance, recording_.axes()), numbers + moves_at);
   }
   if (point.nis) judge(row, point, measured, track->recent[filter], numbers);
   const auto& own = filters_[filter].models;

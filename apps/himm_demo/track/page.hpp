@@ -55,8 +55,8 @@ class TrackPage {
   /// The latest NIS of a filter, each with the number of its quantities.
   using Recent = std::deque<std::pair<double, double>>;
   struct Track {
-    double first_time;
-    Thinned rows;  // what was measured, and then what each filter says of it
+    double first_time;  // where its charts begin to count
+    Thinned rows;       // what was measured, and then what each filter says of it
     std::map<std::pair<double, std::size_t>, std::vector<double>> open{};  // the last of them, by time and line
     std::size_t estimates = 0;                                             // of the first filter
     std::vector<std::vector<ModeStay>> histories{};                        // of each filter, at the end
@@ -79,10 +79,11 @@ class TrackPage {
   void judge(const Row& row, const TargetPoint& point, int measured, Recent& recent, double* numbers);
   LineChart chart(const Track& track, std::string title, std::string y_label) const;
   std::vector<Panel> charts(const Track& track) const;
-  std::vector<LineChart> error_charts(const Track& track) const;
+  void add_errors(const Track& track, std::vector<Panel>& panels) const;
   LineChart modes(const Track& track, std::size_t filter) const;
   void add_trust(const Track& track, std::vector<Panel>& panels) const;
   void add_history(const Track& track, std::size_t filter, LineChart& modes) const;
+  PlanTrace traced(PlanTrace made, const Track& track, std::size_t from, std::size_t every = 1) const;
   Plan plan(const std::string& name, const Track& track) const;
   Plan map_of_all() const;
 
@@ -94,8 +95,9 @@ class TrackPage {
   std::vector<std::string> sensors_;                                       // as they appear
   std::map<Position, std::set<std::string>> stations_;  // who stands where and measures ranges or angles
   std::map<std::string, Track> tracks_;
-  std::size_t kept_ = 0;       // rows of all tracks
-  std::size_t not_shown_ = 0;  // rows of tracks beyond
+  std::optional<double> clock_{};  // the first time, in seconds since 1970, if times have dates
+  std::size_t kept_ = 0;           // rows of all tracks
+  std::size_t not_shown_ = 0;      // rows of tracks beyond
 };
 
 }  // namespace sigmax::apps
