@@ -137,25 +137,6 @@ TYPED_PROPERTY(ChainOf, EvidenceIsExactInRationalArithmetic) {
   RC_ASSERT(row[chain.winner()] * cpp_rational(1.0 + 1e-12) >= best);
 }
 
-PROPERTY(Chain, BetaOfAlternatingKindsIsExactInRationalArithmetic) {
-  const auto x = laws::any_variable<Random>("x");
-  const auto y = laws::any_variable<Fuzzy>("y");
-  const auto prior = laws::any_distribution(x);
-  Chain<Random> chain{prior};
-  ExactRow row = exact(prior.values());
-  const std::size_t length = *rc::gen::inRange<std::size_t>(1, 5);
-  for (std::size_t step = 0; step < length; ++step) {
-    const Rows y_given_x = any_normalized_rows(plain::By::max, x.size(), y.size());
-    const Rows x_given_y = any_normalized_rows(plain::By::sum, y.size(), x.size());
-    const Chain<Fuzzy> between = compose(Relation<Fuzzy, Random>{y, x, y_given_x}, std::move(chain));
-    row = exact_compose<Random>(y_given_x, row);
-    require_near(between.log_total(), static_cast<double>(exact_log(exact_total<Fuzzy>(row))), 1e-13);
-    chain = compose(Relation<Random, Fuzzy>{x, y, x_given_y}, between);
-    row = exact_compose<Fuzzy>(x_given_y, row);
-    require_near(chain.log_total(), static_cast<double>(exact_log(exact_total<Random>(row))), 1e-13);
-  }
-}
-
 // Scaling by powers of two is exact: plain doubles give the same bits as long as they do not underflow.
 
 TYPED_PROPERTY(ChainOf, HasTheBitsOfPlainArithmetic) {
@@ -176,22 +157,6 @@ TYPED_PROPERTY(ChainOf, HasTheBitsOfPlainArithmetic) {
     std::swap(plain_row, next);
   }
   for (std::size_t i = 0; i < x.size(); ++i) RC_ASSERT(chain.row()[i].value() == plain_row(0, i));
-}
-
-PROPERTY(Chain, OfOrdinalVariablesIsPlainMaxMin) {
-  const auto x = laws::any_variable<Ordinal>("x");
-  const auto prior = laws::any_distribution(x);
-  Chain chain{prior};
-  Table row = prior.table(), next(1, x.size());
-  for (int step = 0; step < 5; ++step) {
-    const auto relation = laws::any_relation(x, x);
-    chain = compose(relation, std::move(chain));
-    kernels::compose<MaxMin>(relation.table(), row, next);
-    std::swap(row, next);
-  }
-  for (std::size_t i = 0; i < x.size(); ++i) RC_ASSERT(chain.log(i) == std::log(row(0, i)));
-  RC_ASSERT(numbers_of(chain.normalized().values()) == numbers_of(row.values()));
-  RC_ASSERT(chain.winner() == index_of_greatest(row.values()));
 }
 
 // A million relations, checked against closed forms.

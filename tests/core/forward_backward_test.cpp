@@ -92,19 +92,6 @@ TYPED_TEST(ForwardBackwardOf, IsOverAllPaths) {
   EXPECT_LT(excluded, 100U);
 }
 
-TEST(ForwardBackward, TellsBeforeFromAfter) {
-  const RandomVariable weather{"weather", {"dry", "wet"}};
-  const Distribution prior{weather, {0.5, 0.5}};
-  const Relation next{weather, weather, {{0.75, 0.25}, {0.25, 0.75}}};
-  const std::vector<Likelihood<Random>> reports{Likelihood{weather}, Likelihood{weather, {1.0, 0.0}}};
-  const auto found = forward_backward(prior, next, reports);
-  EXPECT_CLOSE(found.at(2).values(), (Numbers{1.0, 0.0}), 0.0);
-  EXPECT_CLOSE(found.at(1).values(), (Numbers{0.75, 0.25}), 1e-15);
-  EXPECT_CLOSE(found.at(0).values(), (Numbers{0.625, 0.375}), 1e-15);
-  EXPECT_CLOSE(found.log_total(), std::log(0.5), 1e-15);
-  EXPECT_EQ(forward_backward(prior, next, {}).at(0), prior);
-}
-
 /// The last time, and the evidence, against a Chain; all rows against those of a relation that is stored otherwise.
 template <Uncertainty Kind>
 void expect_as_chain(const Relation<Kind, Kind>& next, const std::vector<Likelihood<Kind>>& reports) {

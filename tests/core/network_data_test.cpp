@@ -201,12 +201,4 @@ TEST(PublishedNetworks, AreReadWhole) {
   }
 }
 
-TEST(PublishedNetworks, OfAlarmHaveTheNumbersOfTheFile) {
-  if (!std::filesystem::exists(path_of("alarm"))) GTEST_SKIP() << path_of("alarm") << " is absent";
-  const RelationNetwork network = read("alarm");
-  const auto& cvp = network[network.index_of("CVP")];
-  EXPECT_EQ(network[cvp.parents.front()].variable.name(), "LVEDVOLUME");
-  EXPECT_CLOSE(cvp.table().values(), (std::vector{0.95, 0.04, 0.01, 0.04, 0.95, 0.01, 0.01, 0.29, 0.70}), 1e-15);
-}
-
 }  // namespace network_data_test

@@ -15,27 +15,6 @@ TEST(NetworkMarginals, OfOneVariable) {
   EXPECT_TRUE(marginals(RelationNetwork{}).empty());
 }
 
-TEST(NetworkMarginals, OfWhatWasSeenAltogetherAreCertain) {
-  const RelationNetwork random = grid(3);
-  Evidence evidence;
-  for (std::size_t k = 0; k < 9; ++k) evidence.observe(name(k), k % 2 == 0 ? "1" : "0");
-  for (const RelationNetwork& network : {random, as_fuzzy(random, RatioScale{}, std::vector{name(0), name(5)})}) {
-    expect_single_queries(network, evidence);
-    const auto all = marginals(network, evidence);
-    EXPECT_EQ(all[4].normalized(), (std::vector{0.0, 1.0}));
-    EXPECT_EQ(all[4].total(), query(network, {}, evidence).total());
-  }
-}
-
-TEST(NetworkMarginals, OfPartsThatNothingJoinsWeighEachOther) {
-  const RandomVariable a{"a", 2}, b{"b", 3}, c{"c", 1};
-  const RelationNetwork network = network_of(Distribution{a, {0.25, 0.75}}, uninformative(b), uninformative(c));
-  const Evidence evidence = Evidence{}.observe(Likelihood{a, {0.5, 0.125}}).observe(Likelihood{b, {0.0, 0.5, 0.25}});
-  expect_single_queries(network, evidence);
-  EXPECT_REFUSED(std::domain_error, ("likelihood of a"),
-                 marginals(network, Evidence{}.observe(Likelihood{a, {0.0, 0.0}})));
-}
-
 TEST(NetworkMarginals, NameTheEvidenceThatExcludesEverything) {
   const FuzzyVariable a{"a", 2}, b{"b", 2}, c{"c", 2};
   const RelationNetwork network =
@@ -68,24 +47,6 @@ TEST(NetworkMarginals, KeepNumbersThatNoDoubleHoldsTogether) {
   EXPECT_EQ(all[0].values()[1], (ScaledNumber{1.0, -101 * static_cast<std::int64_t>(reports)}));
   EXPECT_EQ(all[0].normalized()[1], 0.0);  // which as a double is zero
   expect_single_queries(network, evidence);
-}
-
-TEST(NetworkMarginals, OfALongChainNeitherUnderflowNorDrift) {
-  const std::size_t length = 3000;
-  RelationNetwork network;
-  network.declare(Distribution{RandomVariable{name(0), 2}, {1.0, 0.0}});
-  Evidence evidence;
-  for (std::size_t k = 1; k < length; ++k)
-    network.declare(Relation{RandomVariable{name(k), 2}, RandomVariable{name(k - 1), 2}, {{0.75, 0.25}, {0.25, 0.75}}});
-  for (std::size_t k = 0; k < length; ++k)
-    evidence.observe(Likelihood{network.variable<Random>(name(k)), {0.0625, 0.03125}});
-  const auto all = marginals(network, evidence);
-  for (const std::size_t k : {std::size_t{0}, std::size_t{1}, length / 2, length - 1}) {
-    const auto single = query(network, {name(k)}, evidence);
-    EXPECT_CLOSE(all[k].normalized(), single.normalized(), 1e-12);
-    EXPECT_CLOSE(all[k].total().log(), single.total().log(), 1e-12);
-    EXPECT_LT(all[k].total().exponent(), -12000);
-  }
 }
 
 TEST(NetworkMarginals, OfDifferentKindsShareATreeWhereTheOrderAllows) {

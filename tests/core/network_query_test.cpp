@@ -18,42 +18,13 @@ TEST(NetworkQuery, AnswersInTheOrderAskedFor) {
   EXPECT_EQ(forwards.total(), backwards.total());
 }
 
-TEST(NetworkQuery, OfNothingIsTheEvidenceAndOneWithoutAny) {
-  EXPECT_EQ(query(chain(), {}).total().value(), 1.0);
-  const auto fast = query(chain(), {}, {{"speed", "fast"}});
-  EXPECT_CLOSE(fast.total().value(), 0.7, 1e-15);  // the young are wild, and the wild fast
-  EXPECT_EQ(fast.values().size(), 1U);
-  EXPECT_FALSE(fast.induced());
-}
-
-TEST(NetworkQuery, OfAnInnerVariableOfAnotherKindIsInduced) {  // (15), the small world of the readings
-  const FuzzyVariable y{"y", 2};
-  const RandomVariable x{"x", 3};
-  const RelationNetwork network =
-      network_of(Distribution{y, {1.0, 0.5}}, Relation{x, y, {{0.6, 0.3, 0.1}, {0.1, 0.3, 0.6}}});
-  const NetworkAnswer answer = query(network, {"x"});
-  EXPECT_TRUE(answer.induced());
-  EXPECT_CLOSE(numbers(answer), (std::vector{0.6, 0.3, 0.3}), 1e-15);
-  EXPECT_CLOSE(answer.total().value(), 1.2, 1e-15);  // β
-  EXPECT_CLOSE(answer.normalized<Random>().values(), (std::vector{0.5, 0.25, 0.25}), 1e-15);
-  EXPECT_CLOSE(answer.likelihood<Random>()["1"], 0.3, 1e-15);
-
-  const NetworkAnswer outer = query(network, {"y"});
-  EXPECT_FALSE(outer.induced());
-  EXPECT_CLOSE(numbers(outer), (std::vector{1.0, 0.5}), 1e-15);
-  // π(y|x) of (14): the evidence is the induced number, and dividing by it is the normalisation.
-  const NetworkAnswer given = query(network, {"y"}, {{"x", "2"}});
-  EXPECT_FALSE(given.induced());
-  EXPECT_CLOSE(given.total().value(), 0.3, 1e-15);
-  EXPECT_CLOSE(given.normalized<Fuzzy>().values(), (std::vector{1.0 / 3.0, 1.0}), 1e-15);
-}
-
 TEST(NetworkQuery, OfWhatIsKnownIsNotInduced) {  // speed is random within fuzzy variables, but nothing is left to sum
   const auto answer = query(chain(), {"speed"}, {{"speed", "fast"}});
   EXPECT_FALSE(answer.induced());
   EXPECT_CLOSE(numbers(answer), (std::vector{0.0, 0.7}), 1e-15);
   EXPECT_EQ(answer.total(), query(chain(), {}, {{"speed", "fast"}}).total());
   EXPECT_TRUE(query(chain(), {"speed"}, {{"age", "old"}}).induced());
+  EXPECT_CLOSE(query(chain(), {"speed"}).likelihood<Random>()["fast"], 0.7, 1e-15);
 }
 
 TEST(NetworkQuery, NamesTheEvidenceThatExcludesEverything) {
@@ -159,15 +130,6 @@ TEST(NetworkQuery, DoesNotPassAVariableThatIsJoinedOnlyFromWithin) {
   EXPECT_EQ(answer.elimination().order, (std::vector<std::string>{"d", "c", "b"}));
 }
 
-TEST(NetworkMeasure, OfAnEventOfOneVariable) {
-  const Evidence fast{{"speed", "fast"}};
-  // π(age | fast) in proportion to (0.7, 0.42, 0.07)
-  EXPECT_CLOSE(possibility(chain(), Event{age, {"middle", "old"}}, fast), 0.6, 1e-15);
-  EXPECT_CLOSE(necessity(chain(), Event{age, {"young"}}, fast), 0.4, 1e-15);
-  EXPECT_EQ(necessity(chain(), Event{age, {"middle", "old"}}, fast), 0.0);
-  EXPECT_CLOSE(probability(chain(), Event{speed, {"fast"}}, {{"mood", "wild"}}), 0.7, 1e-15);
-}
-
 TEST(NetworkMeasure, OfAnEventOfVariablesTogether) {
   const auto wild_or_old = [](std::span<const std::size_t> at) { return at[0] == 2 || at[1] == 1; };
   const NetworkAnswer answer = query(chain(), {"age", "mood"}, {{"speed", "slow"}});
@@ -194,16 +156,6 @@ TEST(NetworkCompose, OfOneKindIsARelation) {
   EXPECT_INVALID(("'mood'", "fuzzy", "random"), itself.relation<Random, Fuzzy>());
   const ComposedRelation induced = compose(chain(), "age", "speed");
   EXPECT_TRUE((std::holds_alternative<Induced<Relation<Random, Fuzzy>>>(induced.relation<Random, Fuzzy>())));
-}
-
-TEST(NetworkCompose, DoesNotAskThePriorAlongAPath) {
-  const RandomVariable a{"a", 2}, b{"b", 2}, c{"c", 2};
-  const RelationNetwork network = network_of(Distribution{a, {1.0, 0.0}}, Relation{b, a, {{0.5, 0.5}, {0.25, 0.75}}},
-                                             Relation{c, b, {{1.0, 0.0}, {0.5, 0.5}}});
-  const auto relation = compose(network, "a", "c");
-  EXPECT_FALSE(relation.induced());
-  EXPECT_TRUE(relation.unreachable().empty());
-  EXPECT_CLOSE(relation.table().values(), (std::vector{0.75, 0.25, 0.625, 0.375}), 1e-15);
 }
 
 TEST(NetworkCompose, OfWhatHasNothingToDoWithEachOtherRepeatsTheMarginal) {

@@ -74,13 +74,6 @@ TEST_P(TableOfAnyShape, AssignsFromAndToOtherShapes) {
   EXPECT_EQ(large(0, 0), 3.0);
 }
 
-TEST_P(TableOfAnyShape, SelfAssignmentChangesNothing) {
-  Table table = counted();
-  const Table& same = table;
-  table = same;
-  EXPECT_TRUE(is_counted(table));
-}
-
 TEST(Table, ReshapesThereAndBack) {
   Table table(2, 3, 1.0);
   table.reshape(10, 10);

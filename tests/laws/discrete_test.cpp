@@ -50,19 +50,6 @@ TYPED_PROPERTY(DiscreteLaws, CompositionIsAssociative) {
   require_near(compose(compose(a, b), prior).values(), compose(a, compose(b, prior)).values());
 }
 
-TYPED_PROPERTY(DiscreteLaws, ScalingARowPassesThroughCompositionAndVanishesInNormalization) {
-  const auto [x, m, y, left, right] = AnyRelations<TypeParam, TypeParam, TypeParam>{};
-  Rows scaled = rows_of(right.table()), expected = rows_of(compose(left, right).table());
-  for (std::size_t i = 0; i < y.size(); ++i) {
-    const double factor = 1e-3 + any_unit_number();
-    for (double& value : scaled[i]) value *= factor;
-    for (double& value : expected[i]) value *= factor;
-  }
-  const Induced<Relation<TypeParam, TypeParam>> induced{m, y, table_of(scaled), detail::ByLaw{}};
-  require_near(rows_of(compose(left, induced).table()), expected);
-  require_near(rows_of(compose(left, induced).normalized().table()), rows_of(compose(left, right).table()));
-}
-
 TYPED_PROPERTY(DiscreteLaws, ABeliefIsPredictedAsItsDistribution) {
   const auto [x, y, relation, prior] = AnyJoint<TypeParam, TypeParam>{};
   require_near(compose(relation, Belief{prior}).distribution().values(),
@@ -79,28 +66,6 @@ TYPED_PROPERTY(DiscreteLaws, ALikelihoodIsCarriedBackAsItsRestatement) {
                  static_cast<double>(plain::evidence(by_kind<TypeParam>, numbers_of(relation.row(i)), values)));
 }
 
-TYPED_PROPERTY(DiscreteLaws, EvidenceIsTheSameCarriedForwardOrBack) {
-  const auto x = any_variable<TypeParam>("x"), y = any_variable<TypeParam>("y");
-  const auto relation = any_relation(x, y);
-  const Belief prior{any_distribution(y)};
-  const Likelihood likelihood{x, any_unit_numbers(x.size())};
-  Belief forward = compose(relation, prior), back = prior;
-  bool forward_possible = true, back_possible = true;
-  double forward_evidence = 0.0, back_evidence = 0.0;
-  try {
-    forward_evidence = update(forward, likelihood, forward);
-  } catch (const std::domain_error&) {
-    forward_possible = false;
-  }
-  try {
-    back_evidence = update(prior, compose(likelihood, relation), back);
-  } catch (const std::domain_error&) {
-    back_possible = false;
-  }
-  RC_ASSERT(forward_possible == back_possible);
-  require_near(std::exp(forward_evidence), std::exp(back_evidence));
-}
-
 // Update, (8), (41), (44).
 
 TYPED_PROPERTY(DiscreteLaws, UpdateIsItsRestatement) {
@@ -114,16 +79,6 @@ TYPED_PROPERTY(DiscreteLaws, UpdateIsItsRestatement) {
   require_near(
       log_evidence,
       static_cast<double>(std::log(plain::evidence(by_kind<TypeParam>, numbers_of(prior.values()), likelihood))));
-}
-
-TYPED_PROPERTY(DiscreteLaws, UpdateDoesNotChangeWithTheScaleOfTheLikelihood) {
-  const AnyEvidence<TypeParam> drawn;
-  const auto& [x, prior, values] = drawn;
-  const Likelihood likelihood{x, values};
-  const double log_scale = 1e6 * (any_unit_number() - 0.5);
-  Likelihood scaled{x};
-  for (std::size_t i = 0; i < x.size(); ++i) scaled.set_log(i, likelihood.log(i) + log_scale);
-  require_near(update(prior, scaled).values(), update(prior, likelihood).values());
 }
 
 TYPED_PROPERTY(DiscreteLaws, TheOrderOfEvidenceDoesNotMatterAndABatchIsTheSame) {

@@ -115,27 +115,4 @@ TYPED_PROPERTY(JointLaws, MarginalAndConditionalAreTheirRestatements) {  // (5),
   }
 }
 
-TYPED_PROPERTY(JointLaws, TheOtherUpdateRecoversWhatTheJointWasBuiltFrom) {  // (12) → (19) → (20): β cancels
-  const auto [inner, outer, conditional, marginal] = NormalJoint<TypeParam>{};
-  const HybridDistribution joint{conditional, marginal};
-  const auto p_or_pi = normalized(inner, joint.inner_marginal().values());  // (16)
-  const HybridDistribution other{joint.outer_given_inner().relation, p_or_pi};
-  const auto again = other.outer_given_inner().relation;
-  for (std::size_t o = 0; o < outer.size(); ++o)
-    for (std::size_t i = 0; i < inner.size(); ++i)
-      if (marginal[o] > 0.0) require_ulps(again(o, i), conditional(o, i));
-}
-
-TYPED_SUITE(OneKindLaws, Random, Fuzzy);
-
-TYPED_PROPERTY(OneKindLaws, BothOrdersAgreeAndTheJointIsItsTranspose) {  // (4)
-  const auto x = any_variable<TypeParam>("x"), y = any_variable<TypeParam>("y");
-  const HybridDistribution joint{any_relation(x, y), any_distribution(y)};
-  require_near(joint.beta(), 1.0);
-  const HybridDistribution exchanged{joint.outer_given_inner().relation, joint.inner_marginal()};
-  RC_ASSERT(exchanged.outer() == x);
-  require_near(rows_of(exchanged.table()), transposed(rows_of(joint.table())));
-  require_near(exchanged.inner_marginal().values(), joint.outer_marginal().values());
-}
-
 }  // namespace hybrid_distribution_test

@@ -36,24 +36,10 @@ TYPED_PROPERTY(MeasureLaws, AMeasureIsItsRestatement) {
                                              by_kind<TypeParam>, members(distribution, a), Numbers(x.size(), 1.0))));
 }
 
-TYPED_PROPERTY(MeasureLaws, NothingHasMeasureZeroAndEverythingOne) {  // Axioms 1 and 2
-  const auto [x, distribution, a, b] = AnyEvents<TypeParam>{};
-  RC_ASSERT(measure(distribution, empty_event(x)) == 0.0);
-  require_near(measure(distribution, whole_event(x)), 1.0);
-}
-
 TYPED_PROPERTY(MeasureLaws, AUnionOfDisjointEventsIsTheirCombination) {
   using Algebra = AlgebraOf<TypeParam>;
   const auto [x, distribution, a, b] = AnyEvents<TypeParam>{};
   require_near(measure(distribution, a | b), Algebra::plus(measure(distribution, a), measure(distribution, b & ~a)));
-}
-
-TYPED_PROPERTY(MeasureLaws, TheConditionalTimesTheMeasureOfTheConditionIsTheMeasureOfBoth) {
-  const auto [x, distribution, a, b] = AnyEvents<TypeParam>{};
-  if (measure(distribution, b) > 0.0)
-    require_near(measure(given(distribution, b), a) * measure(distribution, b), measure(distribution, a & b));
-  else
-    RC_ASSERT_THROWS_AS(given(distribution, b), std::domain_error);
 }
 
 TYPED_PROPERTY(MeasureLaws, ConditioningIsTheUpdateByCrispEvidence) {

@@ -45,20 +45,6 @@ TYPED_PROPERTY(MixedLaws, UpdateAcrossKindsIsItsRestatement) {  // (19) for a ra
   }
 }
 
-TYPED_PROPERTY(MixedLaws, TheOtherConditionalRecoversWhatTheJointWasBuiltFrom) {
-  // (12) → (14) → (12): from p(x|y), π(y) to π(y|x), p⁺(x) and, by (20), back; and the same from (13).
-  using Condition = Other<TypeParam>;
-  const auto [x, y, relation, prior] = AnyJoint<TypeParam, Condition>{};
-  const auto induced = compose(relation, prior);
-  const auto back = invert(relation, prior).relation;  // (19)
-  for (std::size_t i = 0; i < y.size(); ++i)
-    for (std::size_t k = 0; k < x.size(); ++k) require_near(back(k, i) * induced[k], relation(i, k) * prior[i]);
-
-  const auto again = invert(back, induced.normalized()).relation;  // (20): β cancels
-  for (std::size_t i = 0; i < y.size(); ++i)
-    if (prior[i] > 1e-200) require_near(again.row(i), relation.row(i));
-}
-
 TEST(MixedKinds, MixedKindsDoNotAssociate) {
   const RandomVariable x{"x", 2};
   const FuzzyVariable fuzzy{"fuzzy", 2};

@@ -38,17 +38,6 @@ PROPERTY(RatioScaleLaws, ItIsItsRestatement) {
   for (std::size_t i = 0; i < p.size(); ++i) require_near(back[i], std::pow(pi[i], 1.0 / scale.exponent) / sum);
 }
 
-PROPERTY(RatioScaleLaws, ItCommutesWithUpdate) {
-  const auto p = any_distribution(any_variable<Random>("x"));
-  const Numbers likelihood = any_unit_numbers(p.size());
-  // What is left must not be subnormal: there the division by the greatest rounds.
-  RC_PRE(plain::evidence(By::sum, numbers_of(p.values()), likelihood) > 1e-290L);
-  const auto posterior = update(p, Likelihood<Random>{p.variable(), likelihood});
-  const auto prior = to_possibility(p, RatioScale{});
-  require_near(to_possibility(posterior, RatioScale{}).values(),
-               update(prior, Likelihood<Fuzzy>{prior.variable(), likelihood}).values());
-}
-
 PROPERTY(DuboisPradeLaws, ItIsItsRestatement) {  // π_i = Σ {p_j : p_j ≤ p_i}
   const auto p = any_distribution(any_variable<Random>("x"));
   const auto pi = to_possibility(p, DuboisPrade{});
