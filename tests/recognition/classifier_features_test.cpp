@@ -194,17 +194,6 @@ concept CanBeClassified = requires {
 static_assert(CanBeClassified<Random> && CanBeClassified<Fuzzy>);
 static_assert(!CanBeClassified<Ordinal>, "min cannot be undone: refused by the constraint, not inside");
 
-TYPED_PROPERTY(ClassifierWithFeatures, ResetGoesBackToThePrior) {
-  const Case<TypeParam> with;
-  auto classifier = with.classifier();
-  const Readings first = with.any_readings(), second = with.any_readings();
-  classifier.observe(first);
-  classifier.reset();
-  require_near(classifier.belief().values(), with.prior);
-  classifier.observe(second);
-  require_near(classifier.belief().values(), plain::update(by_kind<TypeParam>, with.prior, with.likelihood(second)));
-}
-
 TYPED_PROPERTY(ClassifierWithFeatures, WithThePredictedFeatureIsThePrintedRecursion) {  // (41)–(43), (44)–(46)
   constexpr By by = by_kind<TypeParam>;
   const Variable<TypeParam> pattern{"pattern", laws::any_size()}, feature{"feature", laws::any_size()};

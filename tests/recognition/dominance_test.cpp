@@ -42,19 +42,6 @@ Relation<Fuzzy, Fuzzy> any_coarse_relation(const FuzzyVariable& to, const FuzzyV
           })};
 }
 
-/// Sound, not complete: what two patterns share in holding down is not listed, as the documentation says.
-TEST(DominatedPatterns, DoNotListWhatSeveralPatternsHoldDownTogether) {
-  const FuzzyVariable shape{"shape", 3}, colour{"colour", 3};
-  const Relation relation{colour, shape, {{1.0, 0.5, 1.0}, {0.5, 1.0, 1.0}, {0.7, 0.7, 1.0}}};
-  EXPECT_TRUE(dominated_patterns(relation).empty());
-  holds([&] {
-    Classifier classifier{uninformative(shape), relation};
-    const auto reports = *rc::gen::inRange(1, 6);
-    for (int k = 0; k < reports; ++k) classifier.observe({*rc::gen::inRange<std::size_t>(0, 3)});
-    RC_ASSERT(decide(classifier.log_belief()).pattern != 2U);
-  });
-}
-
 /// And the others can win: brute force over the reports that allow one feature value, or any set of them.
 PROPERTY(DominatedPatterns, AreAllThatDominatesByBruteForce) {
   const auto patterns = laws::any_variable<Fuzzy>("pattern"), features = laws::any_variable<Fuzzy>("feature");
