@@ -130,6 +130,15 @@ TEST(Envelope, OfPartsWithoutAnyVarianceIsTheirMassesWhereTheyAre) {
   EXPECT_EQ(found.covariance(1, 1), 0.0);
 }
 
+TEST(Envelope, HasAMassBetweenTheGreatestWeightAndTheirSum) {
+  for (const double apart : {0.0, 0.01, 0.1, 1.0, 10.0})
+    for (const double variance : {1.0, 1.01, 2.0, 1e4}) {
+      const double beta = matched({scalar(1.0, 0.0, 1.0), scalar(0.8, apart, variance)}).beta;
+      EXPECT_GE(beta, 1.0) << apart << ' ' << variance;
+      EXPECT_LE(beta, 1.8) << apart << ' ' << variance;
+    }
+}
+
 TEST(Envelope, DoesNotDependOnUnits) {
   const std::vector parts = {planar(1.0, 0.0, 0.5, 1.0, 0.3, 2.0), planar(0.5, 1.0, -0.5, 2.0, -0.7, 1.0)};
   const Eigen::Vector2d unit{1e-9, 1e6};
