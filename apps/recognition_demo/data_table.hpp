@@ -38,12 +38,12 @@ struct DataOptions {
 /// Labelled data, in memory: the classes, sorted, and of each row its class and its features.
 struct DataTable {
   std::string file, label;
-  std::vector<std::string> classes;
-  std::vector<std::size_t> rows_of_class;
-  std::vector<std::size_t> labels;   ///< of each row, an index into the classes
-  std::vector<std::uint32_t> lines;  ///< of the file, on which each row starts
-  std::vector<DataColumn> columns;
-  std::vector<std::string> notes;  ///< what was left out, and why
+  std::vector<std::string> classes{};
+  std::vector<std::size_t> rows_of_class{};
+  std::vector<std::size_t> labels{};   ///< of each row, an index into the classes
+  std::vector<std::uint32_t> lines{};  ///< of the file, on which each row starts
+  std::vector<DataColumn> columns{};
+  std::vector<std::string> notes{};  ///< what was left out, and why
 
   std::size_t size() const { return labels.size(); }
 };

@@ -11,8 +11,8 @@ namespace sigmax::apps {
 /// How one column of data becomes readings: an index into its values, or into bins of its numbers.
 struct FeatureCode {
   std::string name;
-  std::vector<std::string> values;                       ///< of a categorical feature
-  std::optional<Discretization> bins;                    ///< of a numeric one
+  std::vector<std::string> values{};                     ///< of a categorical feature
+  std::optional<Discretization> bins{};                  ///< of a numeric one
   double least = std::nan(""), greatest = std::nan("");  ///< number learned from, NaN where it is not known
   bool missing_is_value = false;                         ///< the last one
 
