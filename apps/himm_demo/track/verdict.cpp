@@ -93,7 +93,7 @@ std::string noise(const Evidence& evidence) {
     const bool large = of_all([&](const InnovationTally& tally) { return size(tally) < 0.1; });
     const bool many_far = 100 * outcome.outliers > outcome.measurements && outcome.sensors.size() < 2;
     const bool small =
-        of_all([&](const InnovationTally& tally) { return tally.share_inside() < least_share || many_far; });
+        of_all([&](const InnovationTally& tally) { return tally.share_inside() < (many_far ? 0.94 : least_share); });
     if (!large && !small) continue;
     const double lasts = first.autocorrelation();
     const bool is_sensor = !(std::abs(lasts) > 0.3 && (lasts < 0.0) == large);
