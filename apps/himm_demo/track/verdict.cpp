@@ -11,7 +11,7 @@ struct Evidence {
   const std::vector<FilterSettings>& filters;
   const TrackOutcome& outcome;
   const TrackOutcome* gated;
-  bool rows_tell_sigmas;
+  bool rows_tell_sigmas, is_one_track;
   std::string tune;  ///< the command that fits the noise
 };
 
@@ -51,7 +51,8 @@ constexpr double least_share = 0.8;
 std::string outliers(const Evidence& evidence) {
   const TrackOutcome& outcome = evidence.outcome;
   const auto gates = [](const FilterSettings& filter) { return filter.gate_probability < 1.0; };
-  if (outcome.outliers == 0 || std::ranges::any_of(evidence.filters, gates)) return "";
+  if (outcome.outliers == 0 || share_inside(outcome) < least_share || std::ranges::any_of(evidence.filters, gates))
+    return "";
   const auto starts = [](const TrackOutcome& one) {
     std::size_t all = 0;
     for (const FilterOutcome& filter : one.filters) all += filter.restarts;
@@ -75,45 +76,57 @@ std::string outliers(const Evidence& evidence) {
 }
 
 /// Innovations are too small or too large. Where a gain is too low they last, where it is too high they alternate,
-/// which tells the noise of the target from that of the sensor.
+/// which tells the noise of the target from that of a sensor. Which of several sensors is wrong they do not tell.
 std::string noise(const Evidence& evidence) {
   const TrackOutcome& outcome = evidence.outcome;
-  for (const auto& named : outcome.filters.front().sensors) {
-    const std::string& sensor = named.first;
-    const InnovationTally& first = named.second;
-    const auto of_all = [&](const auto& holds) {
+  const auto size = [](const InnovationTally& tally) {
+    return std::sqrt(tally.median_nis() / chi_square_quantile(0.5, tally.expected_nis()));
+  };
+  const bool many_far = 100 * outcome.outliers > outcome.measurements && outcome.sensors.size() < 2;
+  std::vector<std::string> sensors;
+  const InnovationTally* worst = nullptr;  // of the first filter
+  bool large = false;                      // the noise, and not the innovations
+  for (const auto& [sensor, tally] : outcome.filters.front().sensors) {
+    const auto of_all = [&, &name = sensor](const auto& holds) {
       return std::ranges::all_of(outcome.filters, [&](const FilterOutcome& one) {
-        const auto own = one.sensors.find(sensor);
+        const auto own = one.sensors.find(name);
         return own != one.sensors.end() && own->second.count() >= 20 && holds(own->second);
       });
     };
-    const auto size = [](const InnovationTally& tally) {
-      return tally.median_nis() / chi_square_quantile(0.5, tally.expected_nis());
-    };
-    const bool large = of_all([&](const InnovationTally& tally) { return size(tally) < 0.1; });
-    const bool many_far = 100 * outcome.outliers > outcome.measurements && outcome.sensors.size() < 2;
-    const bool small =
-        of_all([&](const InnovationTally& tally) { return tally.share_inside() < (many_far ? 0.94 : least_share); });
-    if (!large && !small) continue;
-    const double lasts = first.autocorrelation();
-    const bool is_sensor = !(std::abs(lasts) > 0.3 && (lasts < 0.0) == large);
-    const std::string whose =
-        !is_sensor ? "sigma_w"
-                   : fmt::format("the {} noise of {}", outcome.by_default.empty() ? "assumed" : "default",
-                                 sensor.empty() ? "the measurements" : fmt::format("sensor '{}'", sensor));
-    const std::string by =
-        large ? fmt::format("{:.2g} times too large (median NIS {:.2g}, right is {:.2g})", 1.0 / std::sqrt(size(first)),
-                            first.median_nis(), chi_square_quantile(0.5, first.expected_nis()))
-        : many_far && first.share_inside() >= least_share
-            ? fmt::format("too small ({} of {} innovations have an NIS above {})", outcome.outliers,
-                          outcome.measurements, outlier_nis)
-            : fmt::format("too small ({:.0f} % of the innovations are where 95 % should be)",
-                          100.0 * first.share_inside());
-    return fmt::format(
-        "{}: {} is {}: {}", evidence.file, whose, by,
-        evidence.rows_tell_sigmas && is_sensor ? "see the unit of the columns of standard deviations" : evidence.tune);
+    const bool is_large = of_all([&](const InnovationTally& one) { return size(one) < 0.3; });
+    const bool is_small =
+        of_all([&](const InnovationTally& one) { return one.share_inside() < (many_far ? 0.94 : least_share); });
+    if (!is_large && !is_small) continue;
+    if (!sensors.empty() && is_large != large) continue;
+    large = is_large;
+    sensors.push_back("'" + sensor + "'");
+    if (!worst || tally.share_inside() < worst->share_inside()) worst = &tally;
   }
-  return "";
+  if (!worst) return "";
+  if (!large && evidence.is_one_track && size(*worst) > 20.0)
+    return fmt::format(
+        "{}: innovations are {:.2g} times too large: several targets or false detections are mixed, or a unit is "
+        "wrong; "
+        "tell targets apart with --track-id COLUMN",
+        evidence.file, size(*worst));
+  const double lasts = worst->autocorrelation();
+  const bool is_sensor = !(std::abs(lasts) > 0.3 && (lasts < 0.0) == large);
+  const std::string whose =
+      !is_sensor ? "sigma_w"
+                 : fmt::format("the {} noise of {}", outcome.by_default.empty() ? "assumed" : "default",
+                               sensors.front() == "''" ? "the measurements"
+                                                       : fmt::format("sensor {}", fmt::join(sensors, " or ")));
+  const std::string by =
+      large ? fmt::format("{:.2g} times too large (median NIS {:.2g}, right is {:.2g})", 1.0 / size(*worst),
+                          worst->median_nis(), chi_square_quantile(0.5, worst->expected_nis()))
+      : worst->share_inside() >= least_share
+          ? fmt::format("too small ({} of {} innovations have an NIS above {})", outcome.outliers, outcome.measurements,
+                        outlier_nis)
+          : fmt::format("too small ({:.0f} % of the innovations are where 95 % should be)",
+                        100.0 * worst->share_inside());
+  return fmt::format(
+      "{}: {} is {}: {}", evidence.file, whose, by,
+      evidence.rows_tell_sigmas && is_sensor ? "see the unit of the columns of standard deviations" : evidence.tune);
 }
 
 /// The truth is farther from the estimates of every filter than twice what they state.
@@ -150,8 +163,13 @@ std::string tune_command(const RecordingOptions& recording) {
 std::string verdict_of(const TrackOptions& options, const RecordingReader& recording,
                        const std::vector<FilterSettings>& filters, const TrackOutcome& outcome,
                        const TrackOutcome* gated) {
-  const Evidence evidence{
-      recording.file(), filters, outcome, gated, recording.tells_accuracy(), tune_command(options.recording)};
+  const Evidence evidence{recording.file(),
+                          filters,
+                          outcome,
+                          gated,
+                          recording.tells_accuracy(),
+                          !recording.has_tracks(),
+                          tune_command(options.recording)};
   for (const auto rule : rules)
     if (auto words = rule(evidence); !words.empty()) return words;
   const InnovationTally& innovations = outcome.filters.front().sums[0].innovations;
