@@ -265,14 +265,16 @@ void run_classify(const ClassifyOptions& options) {
 
   Result result = result_of_contest("Classes of " + options.file, options.output);
   result.say("{}: {} rows, by {}", reader.file(), found.rows, options.model);
-  rows.say_otherwise(result);
+  const bool in_another_unit = rows.say_otherwise(result);
   if (!found.shown.empty()) result.add(shown_table(model.label, rows.has_truth(), all, found.shown), {});
   result.add(totals_table(pattern, rows.has_truth(), found), {});
   for (const Tally& tally : found.tallies)
     if (tally.excluded > 0)
       result.say("{}: {} rows excluded every class and were judged by the prior", tally.name, tally.excluded);
-  say_unrecognised(labels_of(pattern), found, result);
-  say_swapped(model, found, result);
+  if (!in_another_unit) {  // else that is the cause
+    say_unrecognised(labels_of(pattern), found, result);
+    say_swapped(model, found, result);
+  }
   if (options.explain)
     for (const ShownRow& row : found.shown) {
       result.text += fmt::format("\nline {}\n", row.line);

@@ -49,7 +49,8 @@ std::optional<std::size_t> RowReader::truth(const CsvRow& row) {
   return found == missing ? std::nullopt : std::optional(found);
 }
 
-void RowReader::say_otherwise(Result& result) const {
+bool RowReader::say_otherwise(Result& result) const {
+  bool in_another_unit = false;
   constexpr double enough = 20.0, much = 0.6;
   constexpr std::size_t one_in = 200;
   if (unseen_cells_ > 0)
@@ -66,18 +67,22 @@ void RowReader::say_otherwise(Result& result) const {
     std::size_t bin = 0;
     const auto share = [&](const std::vector<double>& counts) { return counts[bin] / sum_of(counts); };
     while (bin < learned.size() && !(all >= enough && share(column.binned) > share(learned) + much)) ++bin;
-    if (bin < learned.size())
+    const bool crowds = bin < learned.size();
+    const bool are_far = column.far > 0 && static_cast<double>(one_in * column.far) >= all;
+    in_another_unit = in_another_unit || crowds || are_far;
+    if (crowds)
       result.say(
           "\nColumn {}: {:.0f} % of {} numbers are {}, {:.0f} % of those learned from; write them in the same "
           "unit",
           in_quotes(feature.name), 100.0 * share(column.binned), all, feature.bins->labels()[bin],
           100.0 * share(learned));
-    else if (column.far > 0 && static_cast<double>(one_in * column.far) >= all)
+    else if (are_far)
       result.say("\n{} far from those learned from; write them in the same unit. The first: {}",
                  column.far == 1 ? "1 number is" : fmt::format("{} numbers are", column.far), column.first_far);
     if (column.filled == 0 && rows_ > 1)
       result.say("\nColumn {} has no value in any of {} rows", in_quotes(feature.name), rows_);
   }
+  return in_another_unit;
 }
 
 /// Counts what is to be taken as missing, or throws.

@@ -24,8 +24,9 @@ class RowReader {
   std::size_t far_cells() const { return far_cells_; }
 
   /// Says which cells count as missing, and of which columns the numbers seem to be in another unit than those that
-  /// were learned: where one bin has 60 % more of them, of 20 or more, else where some are far from these.
-  void say_otherwise(Result& result) const;
+  /// were learned: where one bin has 60 % more of them, of 20 or more, else where some are far from these. Returns
+  /// whether there are such columns.
+  bool say_otherwise(Result& result) const;
 
  private:
   struct Column {

@@ -329,6 +329,7 @@ TEST_F(RecognitionDemoLearning, NumbersInAnotherUnitArePointedOut) {
   train(rooms(110, 1.0));
   for (const double factor : {1.8, 0.1})
     EXPECT_TRUE(says(classify(rooms(30, factor)), {"Column 'warmth': 100 % of 30 numbers are ", "in the same unit"}));
+  EXPECT_EQ(classify(rooms(30, 1.8)).find("Not one row"), std::string::npos);  // which is the effect
   EXPECT_EQ(classify(rooms(30, 1.02)).find("unit"), std::string::npos);
   EXPECT_EQ(classify(rooms(19, 1.8)).find("unit"), std::string::npos);  // too few to know
   auto old = nlohmann::json::parse(contents(model));
