@@ -37,17 +37,6 @@ TEST(AnyModel, MayBeAUsersOwn) {
   expect_as(Extended{motion});
 }
 
-TEST(AnyModel, SharesTheModelThatItWasMadeOf) {
-  AnyModel any = Extended{dwna<2>(1.0)};
-  const EstimateOf<AnyModel> x{Vector<4>::Ones(), SquareMatrix<4>::Identity()};
-  const auto expected = predict(any, x, 1.0);
-  const AnyModel copy = any;
-  any = dwpa<1>(1.0);
-  EXPECT_EQ(any.size(), 3);
-  EXPECT_EQ(copy.name(), "dwna");
-  EXPECT_EQ(predict(copy, x, 1.0).covariance, expected.covariance);
-}
-
 TEST(AnyModel, RefusesAnEstimateOfAnotherSize) {
   const EstimateOf<AnyModel> wrong{Vector<4>::Ones(), SquareMatrix<4>::Identity()};
   const Gaussian<2> z{Vector<2>::Ones(), SquareMatrix<2>::Identity()};

@@ -24,14 +24,6 @@ PROPERTY(CoordinatedTurn, GivenItsRateItIsTheKnownTurn) {
   require_near((CoordinatedTurn<3>{1.0, 1.0}.propagate(x, dt)), expected, 1e-13);
 }
 
-TEST(CoordinatedTurn, FliesACircle) {
-  const CoordinatedTurn<2> model{0.0, 0.0};
-  Vector<5> x(1000.0, 0.0, 0.0, 100.0, 0.1);  // about the origin
-  const Vector<5> start = x;
-  for (int k = 0; k < 10; ++k) x = model.propagate(x, 2.0 * std::numbers::pi);
-  EXPECT_CLOSE(x, start, 1e-11);
-}
-
 /// Bar-Shalom, Li, Kirubarajan 2001, (11.7.2-4) and (11.7.2-5), states in our order, in long double; z apart.
 TEST(CoordinatedTurn, ItsJacobianIsThePrintedOneAndDoesNotCancel) {
   const double T = 2.0, vx = 7.0, vy = -4.0;

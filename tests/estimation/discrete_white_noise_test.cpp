@@ -10,11 +10,6 @@ TEST(DiscreteWhiteNoise, IsThatOfThePaperAtFiveHertz) {
                (SquareMatrix<3>{{0.0036, 0.036, 0.18}, {0.036, 0.36, 1.8}, {0.18, 1.8, 9}}), 1e-15);
 }
 
-TEST(DiscreteWhiteNoise, TheGainIsHalfTheSquareTheStepAndOne) {
-  EXPECT_EQ(DiscreteWhiteNoise<3>(1.0).input_gain(3.0), (Vector<3>{4.5, 3.0, 1.0}));
-  EXPECT_EQ(DiscreteWhiteNoise<2>(1.0).input_gain(3.0), (Vector<2>{4.5, 3.0}));
-}
-
 TEST(DiscreteWhiteNoise, AKnownAccelerationEntersAsTheNoiseDoes) {
   const auto model = dwna<2>(0.0, Vector<2>{3.0, -5.0});
   EXPECT_EQ(model.known_input(2.0), (Vector<4>{6.0, -10.0, 6.0, -10.0}));

@@ -11,19 +11,6 @@ FixedStepMotion<4> model_of(const SquareMatrix<4>& F, double q) {
 }
 const auto still = model_of(SquareMatrix<4>::Identity(), 1.0);
 
-TEST(Kalman, OneNumberByHand) {
-  Gaussian<4> estimate{Vector<4>::Zero(), SquareMatrix<4>::Identity()};
-  predict(still, estimate, 1.0, estimate);
-  EXPECT_CLOSE(estimate.covariance(0, 0), 2.0, 1e-13);  // 128 ε more, for rounding
-  const auto innovation = update(still, estimate, {Vector<1>(4.0), SquareMatrix<1>(2.0)}, first, estimate);
-  EXPECT_EQ(innovation.residual(0), 4.0);
-  EXPECT_CLOSE(innovation.covariance(0, 0), 4.0, 1e-13);
-  EXPECT_CLOSE(innovation.squared_distance, 4.0, 1e-13);
-  EXPECT_CLOSE(innovation.log_likelihood, -2.0 - 0.5 * std::log(8.0 * std::numbers::pi), 1e-13);
-  EXPECT_CLOSE(estimate.mean, (Vector<4>{2, 0, 0, 0}), 1e-13);
-  EXPECT_CLOSE(estimate.covariance.diagonal(), (Vector<4>{1, 2, 2, 2}), 1e-13);
-}
-
 TEST(Kalman, TheFormsThatReturnAreThoseThatWrite) {
   const auto model = dwpa<2>(1.5);
   const Gaussian<6> prior{Vector<6>{1, 2, 3, 4, 5, 6}, 2.0 * SquareMatrix<6>::Identity()};

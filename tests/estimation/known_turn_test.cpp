@@ -29,11 +29,4 @@ PROPERTY(KnownTurn, WithoutARateItIsWhiteNoiseAcceleration) {
   }
 }
 
-TEST(KnownTurn, AQuarterTurnMovesAlongTheQuarterOfACircle) {
-  const double omega = std::numbers::pi / 2.0, radius = 200.0, speed = radius * omega;
-  const Vector<6> start(0.0, 0.0, 10.0, speed, 0.0, 5.0);  // the centre is at (0, 200)
-  EXPECT_CLOSE((KnownTurn<3>{omega, 1.0}.transition(1.0) * start), (Vector<6>{radius, radius, 15.0, 0.0, speed, 5.0}),
-               1e-12);
-}
-
 }  // namespace known_turn_test
