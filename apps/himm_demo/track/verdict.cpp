@@ -51,8 +51,7 @@ constexpr double least_share = 0.8;
 std::string outliers(const Evidence& evidence) {
   const TrackOutcome& outcome = evidence.outcome;
   const auto gates = [](const FilterSettings& filter) { return filter.gate_probability < 1.0; };
-  if (outcome.outliers == 0 || share_inside(outcome) < least_share || std::ranges::any_of(evidence.filters, gates))
-    return "";
+  if (outcome.outliers == 0 || std::ranges::any_of(evidence.filters, gates)) return "";
   const auto starts = [](const TrackOutcome& one) {
     std::size_t all = 0;
     for (const FilterOutcome& filter : one.filters) all += filter.restarts;
@@ -64,7 +63,7 @@ std::string outliers(const Evidence& evidence) {
   const TrackOutcome& gated = *evidence.gated;
   const Refused& refused = gated.refused_by_all;
   const std::size_t lost = 5 * std::max(starts(gated), starts(outcome)) - 5 * starts(outcome);  // rows, of all filters
-  if (refused.rows == 0 || 10 * refused.rows > outcome.measurements || share_inside(gated) < least_share ||
+  if (refused.rows == 0 || 20 * refused.rows > outcome.measurements || share_inside(gated) < least_share ||
       2 * lost > refused.rows * evidence.filters.size())
     return "";
   const double km = 1e-3 * refused.metres;
