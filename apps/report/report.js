@@ -74,8 +74,8 @@
     while (words.nextNode()) for (const {0: word, index} of words.currentNode.data.matchAll(/\S+/g)) {
       range.setStart(words.currentNode, index);
       range.setEnd(words.currentNode, index + word.length);
-      const box = range.getBoundingClientRect(), own = words.currentNode.parentNode, {color, font} = getComputedStyle(own);
-      if (box.width && !own.closest('svg, button, details')) put('text', box).text(word).attr('fill', color).attr('y', box.bottom - box.height / 4).style('font', font);
+      const box = range.getBoundingClientRect(), own = words.currentNode.parentNode, {color, fontWeight, fontSize} = getComputedStyle(own);
+      if (box.width && !own.closest('svg, button, details')) put('text', box).text(word).attr('fill', color).attr('y', box.bottom - box.height / 4).style('font', `${fontWeight} ${fontSize} sans-serif`);
     }
     const file = new Blob([new XMLSerializer().serializeToString(svg.node())], {type: 'image/svg+xml'});
     element('a', {href: URL.createObjectURL(file), download: `${title.replace(/\W+/g, '_').toLowerCase()}.svg`}).click();
@@ -181,7 +181,7 @@
     place.append(figure(panel, yLabel, box, element('div', {className: 'x-label', textContent: panel.x_label}), values, table));
     const roll = (made) => {  // lines that go up and down in more rows than pixels would be a bar code: means of neighbours, until one zooms in
       const [from, to] = made.xAxisRange(), rows = panel.x.filter((x) => from <= x && x <= to).length;
-      const period = Math.max(1, Math.round(3 * rows / made.getArea().w));
+      const period = Math.max(1, Math.round(1.5 * rows / made.getArea().w));
       yLabel.textContent = panel.y_label + (period > 1 ? `; means of ${period} rows, zoom in for each` : '');
       if (period !== made.rollPeriod()) made.adjustRoll(period);
     };
