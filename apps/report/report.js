@@ -59,10 +59,10 @@
 
   // A picture that needs no other file: what is drawn, canvases as images, and words where they stand.
   function save(whole, title) {
-    const svg = d3.create('svg').attr('xmlns', 'http://www.w3.org/2000/svg'), range = document.createRange();
+    const own = whole.getBoundingClientRect(), words = document.createTreeWalker(whole, NodeFilter.SHOW_TEXT), range = document.createRange();
+    const frame = new DOMRect(own.x - 8, own.y - 8, own.width + 16, own.height + 16);  // numbers stand beyond the ends of axes
+    const svg = d3.create('svg').attr('xmlns', 'http://www.w3.org/2000/svg').attr('viewBox', `${frame.x} ${frame.y} ${frame.width} ${frame.height}`);
     const put = (kind, {x, y, width, height}) => svg.append(kind).attr('x', x).attr('y', y).attr('width', width).attr('height', height);
-    const frame = whole.getBoundingClientRect(), words = document.createTreeWalker(whole, NodeFilter.SHOW_TEXT);
-    svg.attr('viewBox', [frame.x, frame.y, frame.width, frame.height].join(' '));
     put('rect', frame).attr('fill', css('--paper'));
     for (const canvas of whole.querySelectorAll('canvas')) put('image', canvas.getBoundingClientRect()).attr('href', canvas.toDataURL());
     for (const one of whole.querySelectorAll('svg')) {
