@@ -25,6 +25,35 @@ double in_seconds(double number, double unit_s) {
   return unit_s < 1.0 ? number / std::round(1.0 / unit_s) : number * unit_s;
 }
 
+/// What a header without its unit probably is, by its name as others write it; or empty.
+std::string_view known_as(std::string_view header) {
+  constexpr std::string_view names =
+      " time=time_s timestamp=time_s t=time_s lat=latitude_deg latitude=latitude_deg lon=longitude_deg "
+      "lng=longitude_deg longitude=longitude_deg geoaltitude=altitude_m baroaltitude=altitude_m altitude=altitude_m "
+      "alt=altitude_m sog=sog_kt cog=cog_deg velocity=speed_mps speed=speed_mps heading=track_deg "
+      "vertrate=vertical_rate_mps x=x_m y=y_m z=z_m range=range_m azimuth=azimuth_deg elevation=elevation_deg ";
+  constexpr std::string_view units[] = {"", "utc", "degrees", "knots", "(m)"};
+  const std::string name = lower_case(header);
+  const auto end = std::min(name.find_first_of("_ "), name.size());
+  const std::string unit = name.substr(std::min(end + 1, name.size()));
+  const std::string word = fmt::format(" {}=", name.substr(0, end));
+  const auto at = names.find(word);
+  if (at == names.npos || std::ranges::find(units, unit) == std::end(units)) return {};
+  const std::string_view found = names.substr(at + word.size());
+  return found.substr(0, found.find(' '));
+}
+
+/// The whole option that maps the headers of a file to the names that they probably stand for; or empty.
+std::string columns_for(std::span<const std::string> headers) {
+  std::map<std::string_view, std::string> found;
+  for (const std::string& header : headers)
+    if (const auto name = known_as(header); !name.empty() && name != header) found.try_emplace(name, csv_field(header));
+  const auto mapped = each(found, [](const auto& one) { return fmt::format("{}={}", one.first, one.second); });
+  const std::string words = fmt::format("{}", fmt::join(mapped, ","));
+  if (words.empty()) return words;
+  return "--columns " + (words.find_first_of(" ()[]\"") == words.npos ? words : "'" + words + "'");
+}
+
 /// Whether it is how accurate others of the row are.
 bool is_accuracy(Role role) {
   return role == Role::covariance || role == Role::sigma_position || role == Role::sigma_all_axes ||
@@ -166,16 +195,22 @@ void RecordingReader::refuse_other_kinds(bool cartesian, bool time_known, bool h
   const bool moves = nowhere && has_velocity && !without_unit();
   const bool none = nowhere && !(moves && options_.velocity);
   if (!time_known && csv_.names().size() == 1) csv_.column("time_s");  // says what may be wrong with the separators
-  const std::string map = "map other headers with --columns, as in --columns time_s=t,x_m=east";
+  const std::string columns = mapping_.empty() ? columns_for(csv_.names()) : "";
+  const std::string map = columns.empty() ? "map other headers with --columns, as in --columns time_s=t,x_m=east"
+                                          : "if the units are these, give " + columns;
+  const bool headless =
+      std::ranges::all_of(csv_.names(), [](const auto& name) { return parse_number(name).has_value(); });
   const struct {
     bool holds;
     std::string_view what;
     std::string remedy;
   } refusals[] = {
+      {headless, "the first line holds numbers, and no names of columns",
+       "put a line of names above it, as time_s,x_m,y_m (in this order, parted as the numbers are)"},
       {!time_known, "there is no column time_s", map},
       {none && moves && !options_.simulated, "there are velocities alone",
        "give --set sigma_velocity_mps=…, and they count"},
-      {none, "its columns are of no kind", without_unit().value_or(map)},
+      {none, "its columns are of no kind", columns.empty() ? without_unit().value_or(map) : map},
       {geodetic() && (cartesian || (polar() && !seen_from_places())), "there are columns of several kinds",
        polar() ? "say on which latitude and longitude the sensors stand, or rename the columns that do not count"
                : "rename those that do not count"},
@@ -357,10 +392,10 @@ void RecordingReader::take_numbers() {
 }
 
 std::optional<double> RecordingReader::written(std::size_t quantity) const {
-  const auto number = parse_number(row_[(columns_[quantity] ? columns_ : doubted_)[quantity]->index]);
-  const bool is_none =
-      std::ranges::any_of(options_.missing, [&](const auto& word) { return parse_number(word) == number; });
-  return is_none ? std::nullopt : number;
+  const Column& column = *(columns_[quantity] ? columns_ : doubted_)[quantity];
+  const auto number = parse_number(row_[column.index]);
+  const auto is_it = [&](const auto& word) { return parse_number(word) == number; };
+  return number == column.not_available || std::ranges::any_of(options_.missing, is_it) ? std::nullopt : number;
 }
 
 /// What columns tell of the velocity that do not count.
@@ -414,7 +449,12 @@ Geodetic RecordingReader::place(Role role) const {
     const bool is_latitude = std::abs(*said(role)) > 90.0;
     throw error(
         role, is_latitude ? 0 : 1, is_latitude ? "degrees from −90 to 90" : "degrees from −360 to 360",
-        std::abs(*said(role)) < 1000.0 && std::abs(*said(role, 1)) < 1000.0
+        is_latitude && role == Role::place && std::abs(*said(role)) <= 360.0 && std::abs(*said(role, 1)) <= 90.0
+            ? fmt::format("correct the cell, or, where latitude and longitude are exchanged, give --columns "
+                          "latitude_{0}={1},longitude_{2}={3}",
+                          columns_[place_of(role)]->unit->suffix, typed(header_of(place_of(role) + 1)),
+                          columns_[place_of(role) + 1]->unit->suffix, typed(header_of(place_of(role))))
+        : std::abs(*said(role)) < 1000.0 && std::abs(*said(role, 1)) < 1000.0
             ? "correct the cell or drop the row"
             : "if all are so, they are no degrees, but degrees and minutes in a row, as 5359.4, minutes, degrees "
               "× 10⁷ or semicircles × 2³¹: write degrees");

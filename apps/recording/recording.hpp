@@ -79,6 +79,7 @@ class RecordingReader {
   bool bearings() const { return has(Role::polar, 1) && !polar(); }
   /// Whether there are velocities, and nothing that tells a position.
   bool moves_alone() const { return !located() && !has(Role::polar, 1); }
+  bool velocity_counts() const { return options_.velocity; }
   /// Whether there are positions.
   bool located() const { return has(Role::position) || has(Role::place); }
   int axes() const { return axes_; }

@@ -53,8 +53,9 @@ std::optional<double> parse_time_of_day(std::string_view text) {
   return static_cast<double>(time->whole_s) + time->fraction_s;
 }
 
-/// Minutes ahead of UTC of "+hh:mm", "+hhmm" or "+hh"; none of "Z" or nothing.
+/// Minutes ahead of UTC of "+hh:mm", "+hhmm" or "+hh"; none of "Z" or nothing. As Go writes them, "UTC" may follow.
 std::optional<int> offset_minutes(std::string_view zone) {
+  if (zone.ends_with(" UTC") || zone == "UTC") zone = trimmed(zone.substr(0, zone.size() - 3));
   if (zone.empty() || zone == "Z") return 0;
   const bool ahead = take(zone, "+");
   if (!ahead && !take(zone, "-")) return std::nullopt;

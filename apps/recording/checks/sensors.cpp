@@ -1,0 +1,189 @@
+// Sensors against each other or against the truth: where they stand, their north, clock, range and how they are read.
+
+#include "recording/checks/records.hpp"
+#include "support/text.hpp"
+
+namespace sigmax::apps::checks {
+namespace {
+
+/// Another way to read a radar's cells, and how to have them read so.
+struct Rereading {
+  std::string_view text;
+  double (*azimuth)(double as_read);
+  double (*elevation)(double as_read);
+  double range = 1.0;                                 ///< times
+  std::optional<AzimuthFrom> if_read = std::nullopt;  ///< so, else it is no other way
+};
+
+constexpr double right = 90.0 * degree;
+double same(double angle) { return angle; }
+constexpr Rereading as_read = {"", same, same};
+
+constexpr Rereading rereadings[] = {
+    {"azimuths run the other way (mirrored), clockwise from north: give --azimuth-from north",
+     [](double a) { return right - a; }, same, 1.0, AzimuthFrom::east},
+    {"azimuths run the other way (mirrored), counter-clockwise from east: name them azimuth_deg, with --azimuth-from "
+     "east",
+     [](double a) { return right - a; }, same, 1.0, AzimuthFrom::north},
+    {"azimuths run the other way (mirrored), clockwise from ahead: give --azimuth-from ahead",
+     [](double a) { return -a; }, same},
+    {"azimuths run the other way (mirrored), counter-clockwise from north: take them from 360°",
+     [](double a) { return 2.0 * right - a; }, same},
+    {"azimuths count from east, not from north: add 90°, or name them azimuth_deg", [](double a) { return a - right; },
+     same},
+    {"azimuths count from north, not from east: take 90° off", [](double a) { return a + right; }, same},
+    {"azimuths are in radians: name them azimuth_rad", [](double a) { return a / degree; }, same},
+    {"azimuths are in radians: name them azimuth_rad_north", [](double a) { return right - (right - a) / degree; },
+     same},
+    {"elevations count from the zenith: name them zenith_deg", same, [](double e) { return right - e; }},
+    {"elevations are in radians: name them elevation_rad", same, [](double e) { return e / degree; }},
+    {"the unit of ranges is nautical miles: name them range_nmi", same, same, units::nautical_mile},
+    {"the unit of ranges is km: name them range_km", same, same, 1e3},
+    {"the unit of ranges is feet: name them range_ft", same, same, units::foot},
+    {"the unit of ranges is m: name them range_m", same, same, 1e-3}};
+
+Vector position(const Record& row, const Rereading& reading) {
+  if (!row.is_radar()) return row.at;
+  const double up = reading.elevation(row.elevation), azimuth = reading.azimuth(row.azimuth);
+  return row.from + reading.range * row.range *
+                        Vector(std::cos(up) * std::cos(azimuth), std::cos(up) * std::sin(azimuth), std::sin(up));
+}
+
+/// A row of one sensor off what another one, or the truth, says at its time: where that is, and how fast.
+struct Off {
+  Vector by, other, velocity;
+};
+
+/// The rows of `one` between two of `other`, both read so; against the truth if `other` is none.
+std::vector<Off> offs_of(const Records& records, std::size_t one, std::optional<std::size_t> other,
+                         const Rereading& one_read, const Rereading& other_read) {
+  constexpr std::size_t most = 4000, about = 4;
+  std::vector<Off> offs;
+  for (const auto& [name, track] : records.tracks) {
+    const Record* last = nullptr;        // of the other
+    std::vector<const Record*> waiting;  // rows of one since
+    const auto add = [&](const Record& row, const Vector& from, const Vector& to, double since, double T) {
+      const Vector at = from + since / T * (to - from);
+      if (T > 0.0 && offs.size() < most) offs.push_back({position(row, one_read) - at, at, (to - from) / T});
+    };
+    for (const Record& row : track.rows) {
+      if (std::isnan(row.at[0])) continue;
+      if (!other && row.sensor == one && !std::isnan(row.truth[0])) {
+        if (last) add(row, last->truth, row.truth, row.time - last->time, row.time - last->time);
+        last = &row;
+      }
+      if (other && row.sensor == one && last) waiting.push_back(&row);
+      if (!other || row.sensor != *other) continue;
+      for (const Record* const each : waiting)
+        add(*each, position(*last, other_read), position(row, other_read), each->time - last->time,
+            row.time - last->time);
+      waiting.clear();
+      last = &row;
+    }
+  }
+  // From row to row the velocity of a slow target is mostly noise.
+  const auto rows = offs;
+  for (std::size_t k = about; k + about < rows.size(); ++k) {
+    offs[k].velocity.setZero();
+    for (std::size_t i = k - about; i <= k + about; ++i) offs[k].velocity += rows[i].velocity / (2.0 * about + 1.0);
+  }
+  return offs;
+}
+
+double dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+Reading reading_of(const std::vector<Off>& offs, std::string text, double parameters, const auto& correction) {
+  Reading reading{std::move(text), {}, parameters};
+  for (const Off& off : offs) reading.off.push_back((off.by - correction(off)).squaredNorm());
+  return reading;
+}
+
+/// Where the sensor stands, if it is a radar.
+const Record* radar(const Records& records, std::optional<std::size_t> sensor) {
+  for (const auto& [name, track] : records.tracks)
+    for (const Record& row : track.rows)
+      if (row.sensor == sensor && row.is_radar()) return &row;
+  return nullptr;
+}
+
+std::vector<Reading> readings_of_sensors(const Records& records, std::size_t one, std::optional<std::size_t> other) {
+  const auto offs = offs_of(records, one, other, as_read, as_read);
+  const auto nothing = [](const Off&) -> Vector { return Vector::Zero(); };
+  std::vector<Reading> readings = {reading_of(offs, "", 0, nothing)};
+  const auto named = [&](std::size_t sensor) {
+    return records.sensors[sensor].empty() ? "" : fmt::format("sensor '{}': ", records.sensors[sensor]);
+  };
+  const Record *const own = radar(records, one), *const others = radar(records, other);
+  for (const Rereading& reading : rereadings) {
+    if (reading.if_read && reading.if_read != records.recording.azimuth_from()) continue;
+    const auto add = [&](const Rereading& one_read, const Rereading& other_read, std::string whose) {
+      readings.push_back(
+          reading_of(offs_of(records, one, other, one_read, other_read), whose.append(reading.text), 0.5, nothing));
+    };
+    if (own) add(reading, as_read, named(one));
+    if (others) add(as_read, reading, named(*other));
+    if (own && others) add(reading, reading, "all sensors: ");
+  }
+  const auto median_over = [&](const auto& number) {
+    std::vector<double> numbers;
+    for (const Off& off : offs) numbers.push_back(number(off));
+    return median_of(std::move(numbers));
+  };
+  Vector shift;
+  for (Eigen::Index i = 0; i < 3; ++i) shift[i] = median_over([=](const Off& off) { return off.by[i]; });
+  readings.push_back(
+      reading_of(offs,
+                 fmt::format("{}its place is ({:.3g}, {:.3g}, {:.3g}) m off {}; correct where it stands{}", named(one),
+                             shift[0], shift[1], shift[2], other ? "'" + records.sensors[*other] + "'" : "the truth",
+                             named(one).empty() ? "" : fmt::format(", by sensor.{}.at", records.sensors[one])),
+                 static_cast<double>(records.axes), [=](const Off&) { return shift; }));
+  // Off by a number times something of each row.
+  const auto add_times = [&](double least, const auto& of, const auto& text) {
+    const double times = median_over([&](const Off& off) { return dot(off.by, of(off)) / dot(of(off), of(off)); });
+    if (std::abs(times) > least)
+      readings.push_back(reading_of(offs, text(times), 1, [=](const Off& off) -> Vector { return times * of(off); }));
+  };
+  add_times(
+      0.02, [](const Off& off) { return off.velocity; },
+      [&](double times) {
+        return fmt::format("{}its clock is {:.2g} s {}; correct its times", named(one), std::abs(times),
+                           times > 0.0 ? "early" : "late");
+      });
+  for (const auto& [stands, sensor, sign] :
+       {std::tuple(own, one, 1.0), std::tuple(others, other.value_or(one), -1.0)}) {
+    if (!stands) continue;
+    const auto away = [from = stands->from, times = sign](const Off& off) -> Vector {
+      return times * (off.other - from);
+    };
+    const std::string whose = named(sensor);
+    add_times(
+        0.3 * degree, [=](const Off& off) { return Vector(-away(off)[1], away(off)[0], 0.0); },
+        [&](double times) {
+          return fmt::format("{}its north is off: azimuths are turned by {:.2g}° {}; turn them back", whose,
+                             std::abs(times) / degree, times > 0.0 ? "counter-clockwise" : "clockwise");
+        });
+    add_times(
+        0.0, [=](const Off& off) -> Vector { return away(off).normalized(); },
+        [&](double times) {
+          return fmt::format("{}its ranges have a bias: they are {:.3g} m too {}{}; correct them", whose,
+                             std::abs(times), times > 0.0 ? "long" : "short",
+                             times > 0.0 && records.axes == 2 ? ", as slant ranges are, not along the ground" : "");
+        });
+  }
+  return readings;
+}
+
+}  // namespace
+
+void check_sensors(const Records& records, Findings& findings) {
+  for (std::size_t one = 0; one < records.sensors.size(); ++one)
+    for (std::size_t other = 0; other <= one; ++other) {  // itself stands for the truth
+      const auto readings = readings_of_sensors(records, one, other == one ? std::nullopt : std::optional(other));
+      const Reading* const found = better(readings);
+      if (!found) continue;
+      findings.push_back({"", records.tracks.begin()->second.rows.front().line, found->text});
+      return;
+    }
+}
+
+}  // namespace sigmax::apps::checks
