@@ -20,13 +20,13 @@ class Reporter {
            const TrackOutcome& outcome, Result& result)
       : options_(options), recording_(recording), filters_(filters), outcome_(outcome), result_(result) {}
 
-  /// With the findings of the recording's checks, and what a gate would make of it, if that was tried.
-  void make(const std::vector<std::string>& findings, const TrackOutcome* gated) {
+  /// With the recording's checks, and what a gate would make of it, if that was tried.
+  void make(const RecordingChecks& checks, const std::vector<std::string>& findings, const TrackOutcome* gated) {
     add_facts();
     describe();
     result_.page.title = "Tracks of " + options_.recording.file;
     result_.page.panels.emplace_back(Words{"The recording", result_.text});
-    judge(findings, gated);
+    judge(findings, gated, checks.assumed());
     if (recording_.has_tracks()) list_tracks();
     for (std::size_t p = 0; p < (recording_.has_roll() ? row_parts.size() : 1); ++p) tabulate(p);
     explain();
@@ -55,7 +55,8 @@ class Reporter {
   }
 
   /// The verdict, above all else: the findings, which are causes, or what they leave to be said of the result.
-  void judge(const std::vector<std::string>& findings, const TrackOutcome* gated) {
+  void judge(const std::vector<std::string>& findings, const TrackOutcome* gated,
+             const std::optional<std::string>& assumed) {
     std::vector<std::string> lines = findings;
     if (lines.empty()) lines.push_back(verdict_of(options_, recording_, filters_, outcome_, gated));
     for (const auto& filter : filters_)
@@ -66,6 +67,7 @@ class Reporter {
     result_.fact({"verdict"}, lines);
     result_.page.verdict = lines;
     const std::string described = std::exchange(result_.text, "");
+    if (assumed) result_.say(*assumed);
     for (std::size_t i = 0; i < lines.size(); ++i) result_.say((i == 0 ? "Verdict: " : "Also: ") + lines[i]);
     result_.text += described;
   }
@@ -291,18 +293,12 @@ void track_and_report(TrackOptions options) {
   if (files.report_wanted()) tracks.emplace(filters, recording, options.radar.sigma || recording.has_truth());
   RecordingChecks checks(recording);
   const auto see = [&](const Row& row, const LocalFrame* frame) { checks.see(row, frame); };
-  TrackOutcome outcome;
-  try {
-    outcome = run_track(options, recording, filters, {&files, tracks ? &*tracks : nullptr, see});
-  } catch (const InputError&) {
-    for (const std::string& finding : checks.findings()) complain("himm_demo: warning: " + finding);  // may be why
-    throw;
-  }
+  TrackOutcome outcome = run_track(options, recording, filters, {&files, tracks ? &*tracks : nullptr, see});
   const auto findings = checks.findings();
   const auto gated = findings.empty() ? with_gate(options, what, filters, outcome) : std::nullopt;
   if (tracks) tracks->finish(outcome);
   Result result(options.output);
-  Reporter(options, recording, filters, outcome, result).make(findings, gated ? &*gated : nullptr);
+  Reporter(options, recording, filters, outcome, result).make(checks, findings, gated ? &*gated : nullptr);
   if (tracks) tracks->add_to(result.page, outcome);
   result.publish(files);
 }

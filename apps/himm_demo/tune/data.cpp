@@ -141,6 +141,7 @@ void read(const std::string& file, const TuneOptions& options, const FilterSetti
                                      recording.file(), recording.skipped()));
   for (const auto& notes : {recording.notes(), places.notes()})
     for (const std::string& note : notes) data.notes.push_back(fmt::format("{}: {}", file, note));
+  if (const auto assumed = checks.assumed()) data.notes.push_back(*assumed);
   for (const std::string& finding : checks.findings()) data.notes.push_back(finding);
 }
 

@@ -33,7 +33,6 @@ void RecordingChecks::see(const Row& row, const LocalFrame* frame) {
     if (const auto own = plot.sensor == AnyPlot::Sensor::components ? component_of(plot, axes + i) : std::nullopt)
       record.velocity[i] = *own;
   record.climb = record.velocity[2];
-  record.told = record.velocity.array().isNaN().select(0.0, record.velocity);
   if (plot.sensor == AnyPlot::Sensor::polar || plot.sensor == AnyPlot::Sensor::doppler) {
     record.range = plot.z[0];
     record.azimuth = plot.z[1];
@@ -54,20 +53,27 @@ void RecordingChecks::see(const Row& row, const LocalFrame* frame) {
     record.velocity = turned;
   } else if (axes_seen(plot, axes) == axes) {
     record.at = Vector(position_of(plot, axes)->data());
-    if (axes == 3) record.height = record.at[2];
+    record.height = axes == 3 ? record.at[2] : nan;
   }
   track.rows.push_back(record);
 }
 
+std::optional<std::string> RecordingChecks::assumed() const {
+  const RecordingReader& recording = records_->recording;
+  if (!(recording.polar() || recording.bearings()) || recording.says_azimuth_from()) return std::nullopt;
+  return fmt::format(
+      "{}:1: azimuths are read counter-clockwise from x (east), as nobody said from where they count; compass "
+      "azimuths: "
+      "--azimuth-from north, clockwise from ahead (x): --azimuth-from ahead",
+      recording.file());
+}
+
 std::vector<std::string> RecordingChecks::findings() const {
   Findings found;
-  check_azimuths(*records_, found);
-  const std::size_t notes = found.size();
   // What explains the rest comes first: whoever finds something is the last.
   for (const auto check : {check_columns, check_sentinels, check_targets, check_held, check_interpolated, check_times,
-                           check_held_velocities, check_velocities, check_sensors})
-    if (found.size() == notes) check(*records_, found);
-  if (notes > 0 && found.back().text.find("azimuths run") != std::string::npos) found.erase(found.begin());
+                           check_velocities, check_sensors})
+    if (found.empty()) check(*records_, found);
   std::map<std::string, std::size_t> again;  // of one kind, in several tracks
   for (const Finding& one : found) ++again[one.text.substr(0, one.text.find(':'))];
   std::vector<std::string> sentences;

@@ -17,6 +17,9 @@ class RecordingChecks {
   /// in one that begins at the first of their track.
   void see(const Row& row, const LocalFrame* frame = nullptr);
 
+  /// From where azimuths count, where nobody said it, and the options that say it; else nothing.
+  std::optional<std::string> assumed() const;
+
   /// Sentences: what is wrong, where, and what mends it; causes before what else there is. Throws InputError where the
   /// truth is what was measured.
   std::vector<std::string> findings() const;

@@ -19,7 +19,6 @@ struct Record {
   std::size_t line;
   std::size_t sensor;                                  ///< its place among the names
   Vector at, velocity;                                 ///< along the axes of the track's frame
-  Vector told = Vector::Zero();                        ///< the velocity as the cells tell it
   double height = nan, climb = nan;                    ///< of a place on the Earth above the ellipsoid
   double range = nan, azimuth = nan, elevation = 0.0;  ///< of a radar
   double range_rate = nan;
@@ -43,12 +42,6 @@ struct Records {
   std::vector<std::size_t> columns{};  ///< the quantities whose cells are kept
   std::vector<std::string> sensors{};
   std::map<std::string, Track> tracks{};
-
-  /// The cell of a row in the n-th of the columns.
-  double cell(const Track& track, std::size_t row, std::size_t n) const {
-    return track.written[row * columns.size() + n];
-  }
-  const std::string& header(std::size_t n) const { return recording.header_of(columns[n]); }
 };
 
 /// Something that is wrong, on what line, if on one, and what mends it.
@@ -86,15 +79,9 @@ void for_each_path(const Records& records, const Use& use) {
     }
 }
 
-void check_azimuths(const Records& records, Findings& findings);
-void check_columns(const Records& records, Findings& findings);
-void check_sentinels(const Records& records, Findings& findings);
-void check_targets(const Records& records, Findings& findings);
-void check_held(const Records& records, Findings& findings);
-void check_held_velocities(const Records& records, Findings& findings);
-void check_interpolated(const Records& records, Findings& findings);
-void check_times(const Records& records, Findings& findings);
-void check_velocities(const Records& records, Findings& findings);
-void check_sensors(const Records& records, Findings& findings);
+/// Adds what it finds.
+using Check = void(const Records& records, Findings& findings);
+Check check_columns, check_sentinels, check_targets, check_held, check_interpolated, check_times, check_velocities,
+    check_sensors;
 
 }  // namespace sigmax::apps::checks

@@ -83,31 +83,6 @@ void check_held(const Records& records, Findings& findings) {
   });
 }
 
-void check_held_velocities(const Records& records, Findings& findings) {
-  if (!records.recording.velocity_counts()) return;
-  constexpr std::size_t long_run = 8;
-  for_each_path(records, [&](const std::string& name, const std::vector<const Record*>& rows) {
-    // What is held changes by much when it changes; what is rounded changes by a step.
-    std::vector<std::pair<std::size_t, double>> runs;
-    std::vector<double> changes;
-    std::size_t run = 1, held = 0, line = 0;
-    for (std::size_t k = 1; k < rows.size(); ++k, ++run) {
-      const double change = (rows[k]->told - rows[k - 1]->told).norm();
-      if (!(change > 0.0)) continue;
-      if (line == 0 && run >= long_run) line = rows[k - run + 1]->line;
-      runs.emplace_back(std::exchange(run, 0), change);
-      changes.push_back(change);
-    }
-    const double step = quantile_of(changes, 0.1);
-    for (const auto& [length, change] : runs) held += length >= long_run && change > 4.0 * step ? length : 0;
-    if (rows.size() < 5 * long_run || 10 * held < 3 * rows.size()) return;
-    findings.push_back({name, line,
-                        fmt::format("held velocities: {} of {} rows repeat those before, which then change at once; "
-                                    "empty the cells that repeat one, or leave sigma_velocity_mps unset",
-                                    held, rows.size())});
-  });
-}
-
 void check_interpolated(const Records& records, Findings& findings) {
   constexpr std::size_t few = 20;
   for_each_path(records, [&](const std::string& name, const std::vector<const Record*>& rows) {
@@ -136,34 +111,24 @@ void check_interpolated(const Records& records, Findings& findings) {
 
 void check_times(const Records& records, Findings& findings) {
   if (!records.recording.times_are_seconds()) return;
-  constexpr std::size_t span = 10;
-  std::vector<double> steps, speeds;
-  std::size_t line = 0;
-  for_each_path(records, [&](const std::string&, const std::vector<const Record*>& rows) {
-    for (std::size_t k = span; k < rows.size(); ++k) {
-      double path = 0.0;
-      for (std::size_t i = k - span; i < k; ++i) path += apart(rows[i], rows[i + 1]);
-      const double T = rows[k]->time - rows[k - span]->time, way = apart(rows[k], rows[k - span]);
-      if (!(T > 0.0) || way < 0.7 * path || path == 0.0) continue;
-      if (steps.empty()) line = rows[k - span]->line;
-      steps.push_back(T / static_cast<double>(span));
-      speeds.push_back(way / T);
-    }
+  for_each_path(records, [&](const std::string& name, const std::vector<const Record*>& rows) {
+    double way = 0.0;
+    for (std::size_t k = 1; k < rows.size(); ++k) way += apart(rows[k], rows[k - 1]);
+    if (rows.size() < 10 || apart(rows.front(), rows.back()) < 0.5 * way) return;
+    const double T = rows.back()->time - rows.front()->time, step = T / static_cast<double>(rows.size() - 1);
+    const std::string_view unit = way < 0.05 * T                   ? (step > 1e5     ? "time_us"
+                                                                      : step > 2.5e3 ? ""
+                                                                      : step > 1e2   ? "time_ms"
+                                                                                     : "")
+                                  : way < 1500.0 * T || step > 0.2 ? ""
+                                  : step > 5e-3                    ? "time_min"
+                                                                   : "time_days";
+    if (unit.empty()) return;
+    findings.push_back({name, rows.front()->line,
+                        fmt::format("the unit of times: steps of {:.3g} s at a speed of {:.2g} m/s look like {}; give "
+                                    "--columns {}={}",
+                                    step, way / T, unit, unit, typed(records.recording.time_header()))});
   });
-  const double step = median_of(steps), speed = median_of(speeds);
-  const bool too_long = step >= 100.0 && speed < 0.05 && (step < 2500.0 || step > 1e5),
-             too_short = step < 0.2 && speed > 1500.0;
-  if (steps.size() < span || !(too_long || too_short)) return;
-  const std::string_view unit = too_short    ? step > 0.005  ? "time_min"
-                                               : step > 1e-4 ? "time_h"
-                                                             : "time_days"
-                                : step < 1e5 ? "time_ms"
-                                : step < 1e8 ? "time_us"
-                                             : "time_ns";
-  findings.push_back({"", line,
-                      fmt::format("the unit of times: steps of {:.3g} s at a speed of {:.2g} m/s look like {}; give "
-                                  "--columns {}={}",
-                                  step, speed, unit, unit, typed(records.recording.time_header()))});
 }
 
 }  // namespace sigmax::apps::checks

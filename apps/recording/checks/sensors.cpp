@@ -6,52 +6,47 @@
 namespace sigmax::apps::checks {
 namespace {
 
-/// Another way to read a radar's cells, and how to have them read so.
+/// Another way to read a radar's cells, and how to have them read so: angles are numbers times those that were read,
+/// and more.
 struct Rereading {
   std::string_view text;
-  double (*azimuth)(double as_read);
-  double (*elevation)(double as_read);
-  double range = 1.0;                                 ///< times
+  double azimuth = 1.0, more_azimuth = 0.0, elevation = 1.0, more_elevation = 0.0, range = 1.0;
   std::optional<AzimuthFrom> if_read = std::nullopt;  ///< so, else it is no other way
 };
 
-constexpr double right = 90.0 * degree;
-double same(double angle) { return angle; }
-constexpr Rereading as_read = {"", same, same};
+constexpr double right = 90.0 * degree, radians = 1.0 / degree;
+constexpr Rereading as_read = {""};
 
 constexpr Rereading rereadings[] = {
-    {"azimuths run the other way (mirrored), clockwise from north: give --azimuth-from north",
-     [](double a) { return right - a; }, same, 1.0, AzimuthFrom::east},
-    {"azimuths run the other way (mirrored), counter-clockwise from east: name them azimuth_deg, with --azimuth-from "
-     "east",
-     [](double a) { return right - a; }, same, 1.0, AzimuthFrom::north},
-    {"azimuths run the other way (mirrored), clockwise from ahead: give --azimuth-from ahead",
-     [](double a) { return -a; }, same},
-    {"azimuths run the other way (mirrored), counter-clockwise from north: take them from 360°",
-     [](double a) { return 2.0 * right - a; }, same},
-    {"azimuths count from east, not from north: add 90°, or name them azimuth_deg", [](double a) { return a - right; },
-     same},
-    {"azimuths count from north, not from east: take 90° off", [](double a) { return a + right; }, same},
-    {"azimuths are in radians: name them azimuth_rad", [](double a) { return a / degree; }, same},
-    {"azimuths are in radians: name them azimuth_rad_north", [](double a) { return right - (right - a) / degree; },
-     same},
-    {"elevations count from the zenith: name them zenith_deg", same, [](double e) { return right - e; }},
-    {"elevations are in radians: name them elevation_rad", same, [](double e) { return e / degree; }},
-    {"the unit of ranges is nautical miles: name them range_nmi", same, same, units::nautical_mile},
-    {"the unit of ranges is km: name them range_km", same, same, 1e3},
-    {"the unit of ranges is feet: name them range_ft", same, same, units::foot},
-    {"the unit of ranges is m: name them range_m", same, same, 1e-3}};
+    {"azimuths run the other way (mirrored), clockwise from north: give --azimuth-from north", -1, right, 1, 0, 1,
+     AzimuthFrom::east},
+    {"azimuths run the other way (mirrored), counter-clockwise from east: name them azimuth_deg", -1, right, 1, 0, 1,
+     AzimuthFrom::north},
+    {"azimuths run the other way (mirrored), clockwise from ahead: give --azimuth-from ahead", -1},
+    {"azimuths run the other way (mirrored), counter-clockwise from north: take them from 360°", -1, 2 * right},
+    {"azimuths count from another axis: add 90°, as where east was taken for north", 1, -right},
+    {"azimuths count from another axis: take 90° off, as where north was taken for east", 1, right},
+    {"azimuths are in radians: name them azimuth_rad", radians},
+    {"azimuths are in radians: name them azimuth_rad_north", radians, right - right / degree},
+    {"elevations count from the zenith: name them zenith_deg", 1, 0, -1, right},
+    {"elevations are in radians: name them elevation_rad", 1, 0, radians},
+    {"the unit of ranges is nautical miles: name them range_nmi", 1, 0, 1, 0, units::nautical_mile},
+    {"the unit of ranges is km: name them range_km", 1, 0, 1, 0, 1e3},
+    {"the unit of ranges is feet: name them range_ft", 1, 0, 1, 0, units::foot},
+    {"the unit of ranges is m: name them range_m", 1, 0, 1, 0, 1e-3}};
 
-Vector position(const Record& row, const Rereading& reading) {
+Vector position(const Record& row, const Rereading& read) {
   if (!row.is_radar()) return row.at;
-  const double up = reading.elevation(row.elevation), azimuth = reading.azimuth(row.azimuth);
-  return row.from + reading.range * row.range *
+  const double up = read.elevation * row.elevation + read.more_elevation;
+  const double azimuth = read.azimuth * row.azimuth + read.more_azimuth;
+  return row.from + read.range * row.range *
                         Vector(std::cos(up) * std::cos(azimuth), std::cos(up) * std::sin(azimuth), std::sin(up));
 }
 
 /// A row of one sensor off what another one, or the truth, says at its time: where that is, and how fast.
 struct Off {
   Vector by, other, velocity;
+  double time;
 };
 
 /// The rows of `one` between two of `other`, both read so; against the truth if `other` is none.
@@ -64,7 +59,7 @@ std::vector<Off> offs_of(const Records& records, std::size_t one, std::optional<
     std::vector<const Record*> waiting;  // rows of one since
     const auto add = [&](const Record& row, const Vector& from, const Vector& to, double since, double T) {
       const Vector at = from + since / T * (to - from);
-      if (T > 0.0 && offs.size() < most) offs.push_back({position(row, one_read) - at, at, (to - from) / T});
+      if (T > 0.0 && offs.size() < most) offs.push_back({position(row, one_read) - at, at, Vector::Zero(), row.time});
     };
     for (const Record& row : track.rows) {
       if (std::isnan(row.at[0])) continue;
@@ -82,11 +77,9 @@ std::vector<Off> offs_of(const Records& records, std::size_t one, std::optional<
     }
   }
   // From row to row the velocity of a slow target is mostly noise.
-  const auto rows = offs;
-  for (std::size_t k = about; k + about < rows.size(); ++k) {
-    offs[k].velocity.setZero();
-    for (std::size_t i = k - about; i <= k + about; ++i) offs[k].velocity += rows[i].velocity / (2.0 * about + 1.0);
-  }
+  for (std::size_t k = about; k + about < offs.size(); ++k)
+    if (const Off& from = offs[k - about], &to = offs[k + about]; to.time > from.time)
+      offs[k].velocity = (to.other - from.other) / (to.time - from.time);
   return offs;
 }
 

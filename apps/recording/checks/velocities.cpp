@@ -57,11 +57,15 @@ std::vector<Pair> pairs_of(const std::vector<Path>& paths, std::size_t rows, dou
   return pairs;
 }
 
+/// The usual number of pairs; of complex ones the usual parts.
 template <class Number>
-double fitted(const std::vector<Pair>& pairs, const Number& number) {
-  std::vector<double> numbers;
-  for (const Pair& pair : pairs) numbers.push_back(number(pair));
-  return median_of(std::move(numbers));
+Complex fitted(const std::vector<Pair>& pairs, const Number& number) {
+  std::vector<double> real, imaginary;
+  for (const Pair& pair : pairs) {
+    real.push_back(Complex(number(pair)).real());
+    imaginary.push_back(Complex(number(pair)).imag());
+  }
+  return {median_of(std::move(real)), median_of(std::move(imaginary))};
 }
 
 /// What may be the unit of rates that are so many times too great.
@@ -69,14 +73,12 @@ std::string unit_of(double times) {
   const auto is = [&](double factor) { return std::abs(times / factor - 1.0) < 0.05; };
   for (const Unit& unit : units::speeds)
     if (is(1.0 / unit.value)) return fmt::format("{} (_{})", unit.words, unit.suffix);
-  for (const Unit& unit : units::lengths)
-    if (is(unit.value)) return fmt::format("positions in {} (_{})", unit.words, unit.suffix);
   for (const TimeColumn& time : time_columns)
     if (is(1.0 / time.unit_s)) return fmt::format("times in {} ({})", time.words, time.name);
   return "those of another unit";
 }
 
-std::vector<Reading> readings_of_rates(const std::vector<Pair>& pairs, const Words& words, double step) {
+std::vector<Reading> readings_of_rates(const std::vector<Pair>& pairs, const Words& words, double step, double all) {
   std::vector<Reading> readings;
   const auto add = [&](double parameters, std::string text, const auto& read) {
     readings.push_back({std::move(text), {}, parameters});
@@ -96,12 +98,7 @@ std::vector<Reading> readings_of_rates(const std::vector<Pair>& pairs, const Wor
     add(0, "the sign of velocities along y: they and y are to grow to the north; write both so",
         [](const Pair& pair) { return std::conj(pair.told); });
   }
-  const double slow = 0.3 * fitted(pairs, [](const Pair& pair) { return std::abs(pair.told); });
-  const Complex times(  // as far as it has the direction of the velocity, and to its left
-      fitted(pairs,
-             [=](const Pair& pair) { return std::abs(pair.told) > slow ? (pair.growth / pair.told).real() : nan; }),
-      fitted(pairs,
-             [=](const Pair& pair) { return std::abs(pair.told) > slow ? (pair.growth / pair.told).imag() : nan; }));
+  const Complex times = fitted(pairs, [](const Pair& pair) { return pair.growth / pair.told; });
   if (times.real() > 0.0 && std::abs(std::log(times.real())) > 0.1)
     add(1,
         fmt::format("the scale of {}: they are {:.3g} times what {} say, as {} would be; name the unit in the header, "
@@ -120,9 +117,8 @@ std::vector<Reading> readings_of_rates(const std::vector<Pair>& pairs, const Wor
                     std::abs(turn) / degree, turn > 0.0 ? "right" : "left"),
         [=](const Pair& pair) { return std::polar(1.0, turn) * pair.told; });
   if (!words.count) return readings;  // nobody believes them, so what follows costs nothing
-  const Complex wind(fitted(pairs, [](const Pair& pair) { return (pair.growth - pair.told).real(); }),
-                     fitted(pairs, [](const Pair& pair) { return (pair.growth - pair.told).imag(); }));
-  if (std::abs(wind) > 0.05 * fitted(pairs, [](const Pair& pair) { return std::abs(pair.growth); }))
+  const Complex wind = fitted(pairs, [](const Pair& pair) { return pair.growth - pair.told; });
+  if (std::norm(wind) > 0.0025 * all)
     add(2,
         fmt::format("a constant part: positions grow by ({:.2g}, {:.2g}) m/s more than velocities say, as where these "
                     "are through air (wind) or water; leave sigma_velocity_mps unset",
@@ -149,8 +145,8 @@ void compare(const std::vector<Path>& paths, const Words& words, Findings& findi
   for (const std::size_t rows : {1U, 4U, 12U}) {
     const auto pairs = pairs_of(paths, rows, step);
     if (pairs.size() < 25) continue;
-    auto some = readings_of_rates(pairs, words, step);
-    const double size = fitted(pairs, [](const Pair& pair) { return std::norm(pair.growth); });
+    const double size = fitted(pairs, [](const Pair& pair) { return std::norm(pair.growth); }).real();
+    auto some = readings_of_rates(pairs, words, step, size);
     double left = infinity;
     for (const Reading& reading : some) left = std::min(left, median_of(reading.off) / size);
     if (left > 0.7 * least) continue;
@@ -160,7 +156,7 @@ void compare(const std::vector<Path>& paths, const Words& words, Findings& findi
     readings = std::move(some);
   }
   if (readings.empty()) return;
-  const auto line = std::ranges::find_if(paths, [](const Path& path) { return !path.empty(); })->front().line;
+  const std::size_t line = paths.front().front().line;
   const Reading* const found = better(readings, std::max<std::size_t>(1, over / 2));
   if (found && quantile_of(found->off, 0.75) < 0.3 * all)
     findings.push_back({"", line, found->text});
@@ -174,34 +170,33 @@ void compare(const std::vector<Path>& paths, const Words& words, Findings& findi
 
 void check_velocities(const Records& records, Findings& findings) {
   constexpr std::size_t most_rows = 20'000;
-  std::vector<Path> along_ground, upwards, to_radar;
-  for_each_path(records, [&](const std::string&, const std::vector<const Record*>& rows) {
-    for (auto* const paths : {&along_ground, &upwards, &to_radar}) paths->emplace_back();
-    for (const Record* const row : rows) {
-      const auto add = [&](Path& path, Complex at, Complex velocity) {
-        if (std::isnan(std::abs(at) + std::abs(velocity)) || path.size() == most_rows) return;
-        if (!path.empty() && row->time <= path.back().time) return;
-        const Complex way =
-            path.empty() ? 0.0
-                         : path.back().way + (row->time - path.back().time) / 2.0 * (velocity + path.back().velocity);
-        path.push_back({row->time, at, velocity, way, row->line});
-      };
-      add(along_ground.back(), {row->at[0], row->at[1]}, {row->velocity[0], records.axes > 1 ? row->velocity[1] : 0.0});
-      add(upwards.back(), row->height, row->climb);
-      add(to_radar.back(), row->range, row->range_rate);
-    }
-  });
-  const RecordingReader& recording = records.recording;
-  const bool counts = recording.velocity_counts(), has_course = recording.holds(place_of(Role::course));
-  const bool one = records.axes == 1;
-  compare(along_ground,
-          {"velocities", "positions",
-           one ? "vx is below 0 where x falls" : "they point backwards; add 180° to a course", one, counts, has_course},
-          findings);
-  compare(upwards, {"vertical velocities", "heights", "count them upwards", true, counts, false}, findings);
-  compare(to_radar,
-          {"range rates", "ranges", "where closing is positive, name the column closing_rate_mps", true, true, false},
-          findings);
+  const bool one = records.axes == 1, counts = records.recording.velocity_counts();
+  const auto check = [&](const Words& words, const auto& at, const auto& velocity) {
+    std::vector<Path> paths;
+    for_each_path(records, [&](const std::string&, const std::vector<const Record*>& rows) {
+      Path path;
+      for (const Record* const row : rows) {
+        const Complex here = at(*row), now = velocity(*row);
+        if (std::isnan(std::abs(here) + std::abs(now)) || path.size() == most_rows) continue;
+        const double dt = path.empty() ? 1.0 : row->time - path.back().time;
+        const Complex way = path.empty() ? 0.0 : path.back().way + dt / 2.0 * (now + path.back().velocity);
+        if (dt > 0.0) path.push_back({row->time, here, now, way, row->line});
+      }
+      if (!path.empty()) paths.push_back(std::move(path));
+    });
+    if (!paths.empty()) compare(paths, words, findings);
+  };
+  check(
+      {"velocities", "positions", one ? "vx is below 0 where x falls" : "they point backwards; add 180° to a course",
+       one, counts, records.recording.holds(place_of(Role::course))},
+      [](const Record& row) { return Complex(row.at[0], row.at[1]); },
+      [=](const Record& row) { return Complex(row.velocity[0], one ? 0.0 : row.velocity[1]); });
+  check(
+      {"vertical velocities", "heights", "count them upwards", true, counts, false},
+      [](const Record& row) { return row.height; }, [](const Record& row) { return row.climb; });
+  check(
+      {"range rates", "ranges", "where closing is positive, name the column closing_rate_mps", true, true, false},
+      [](const Record& row) { return row.range; }, [](const Record& row) { return row.range_rate; });
 }
 
 }  // namespace sigmax::apps::checks
