@@ -34,6 +34,8 @@ TEST(Timestamp, AnOffsetIsTakenOff) {
     EXPECT_EQ(parse_timestamp("2016-01-12 14:02:11" + std::string(zone)), parse_timestamp("2016-01-12T13:02:11Z"))
         << zone;
   EXPECT_EQ(parse_timestamp("2016-01-12T07:32:11-0530"), parse_timestamp("2016-01-12T13:02:11 Z"));
+  EXPECT_EQ(parse_timestamp("2024-07-30 08:17:43.375540658 +0200 UTC"),
+            parse_timestamp("2024-07-30T06:17:43.375540658"));
 }
 
 TEST(Timestamp, ALeapSecondIsTheFirstOfTheNextMinute) {

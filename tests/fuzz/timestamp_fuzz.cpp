@@ -45,8 +45,9 @@ void check_date_and_time(const std::string& text, double seconds) {
   }
   double offset = 0.0;
   end = std::min(text.find_first_not_of(" \t", end), text.size());
-  if (end < text.size() && text[end] != 'Z') {
+  if (end < text.size() && text[end] != 'Z' && text[end] != 'U') {
     std::string digits = text.substr(end + 1);
+    digits.resize(std::min(digits.find_first_of(" \t"), digits.size()));  // UTC may follow, as Go writes it
     std::erase(digits, ':');
     require(digits.size() == 2 || digits.size() == 4, "a zone is hours, or hours and minutes");
     digits.resize(4, '0');

@@ -75,7 +75,7 @@ void check_held(const Records& records, Findings& findings) {
       if (line == 0) line = rows[k]->line;
     }
     if (jumps.size() > few && 2 * jumps.size() > runs) held += by_jumps;
-    if (frozen == 0 && (held < 2 * few || 10 * held < rows.size())) return;
+    if (20 * held < rows.size() || (frozen == 0 && (held < 2 * few || 10 * held < rows.size()))) return;
     findings.push_back({name, frozen > 0 ? frozen : line,
                         fmt::format("held (frozen, repeated) positions: {} rows repeat the one before although the "
                                     "target moves, and count as new measurements: drop them, or empty their cells",
