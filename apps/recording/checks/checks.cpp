@@ -120,7 +120,8 @@ const Reading* better(const std::vector<Reading>& readings, std::size_t rows_eac
     least = sum;
     best = &reading;
   }
-  if (best == readings.data()) return nullptr;
+  const auto most_off = [](const Reading& reading) { return quantile_of(reading.off, 0.75); };
+  if (best == readings.data() || !(most_off(*best) < most_off(readings.front()))) return nullptr;
   constexpr double sure = 2.5, much = 0.2;
   const std::size_t blocks = std::max<std::size_t>(n / in_block, 3);
   RunningMean gains;

@@ -71,10 +71,10 @@ Complex fitted(const std::vector<Pair>& pairs, const Number& number) {
 /// What may be the unit of rates that are so many times too great.
 std::string unit_of(double times) {
   const auto is = [&](double factor) { return std::abs(times / factor - 1.0) < 0.05; };
-  for (const Unit& unit : units::speeds)
-    if (is(1.0 / unit.value)) return fmt::format("{} (_{})", unit.words, unit.suffix);
   for (const TimeColumn& time : time_columns)
     if (is(1.0 / time.unit_s)) return fmt::format("times in {} ({})", time.words, time.name);
+  for (const Unit& unit : units::speeds)
+    if (is(1.0 / unit.value)) return fmt::format("{} (_{})", unit.words, unit.suffix);
   return "those of another unit";
 }
 
@@ -140,7 +140,7 @@ void compare(const std::vector<Path>& paths, const Words& words, Findings& findi
   const double step = median_of(steps);
   // Over as many rows as make noise least, and turns no more.
   std::vector<Reading> readings;
-  double least = infinity, all = nan;
+  double least = infinity, all = nan, rough = nan;
   std::size_t over = 1;
   for (const std::size_t rows : {1U, 4U, 12U}) {
     const auto pairs = pairs_of(paths, rows, step);
@@ -150,6 +150,10 @@ void compare(const std::vector<Path>& paths, const Words& words, Findings& findi
     double left = infinity;
     for (const Reading& reading : some) left = std::min(left, median_of(reading.off) / size);
     if (left > 0.7 * least) continue;
+    std::vector<double> changes;  // from pair to pair: little where growth is no noise
+    for (std::size_t k = 2; k < pairs.size(); ++k)
+      changes.push_back(std::norm(pairs[k].growth - pairs[k - 2].growth) / size);
+    rough = median_of(std::move(changes));
     least = left;
     all = size;
     over = rows;
@@ -160,7 +164,7 @@ void compare(const std::vector<Path>& paths, const Words& words, Findings& findi
   const Reading* const found = better(readings, std::max<std::size_t>(1, over / 2));
   if (found && quantile_of(found->off, 0.75) < 0.3 * all)
     findings.push_back({"", line, found->text});
-  else if (words.count && !words.along_one_line && least > 0.25 && readings.front().off.size() >= 50)
+  else if (words.count && !words.along_one_line && least > 0.25 && rough < 0.2 && readings.front().off.size() >= 50)
     findings.push_back({"", line,
                         "velocities have nothing to do with how positions grow: they are unrelated; leave "
                         "sigma_velocity_mps unset, or map the right columns with --columns"});
