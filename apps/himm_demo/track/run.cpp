@@ -37,7 +37,7 @@ class TrackRun {
  public:
   TrackRun(const TrackOptions& options, RecordingReader& recording, const std::vector<FilterSettings>& filters,
            TrackSinks sinks)
-      : options_(options), recording_(recording), filters_(filters), sinks_(sinks) {
+      : options_(options), recording_(recording), filters_(filters), sinks_(std::move(sinks)) {
     outcome_.filters.resize(filters.size());
     for (std::size_t f = 0; f < filters.size(); ++f) {
       TargetChoice choice = choice_of(filters[f], axes_);
@@ -409,7 +409,7 @@ class TrackRun {
 
 TrackOutcome run_track(const TrackOptions& options, RecordingReader& recording,
                        const std::vector<FilterSettings>& filters, TrackSinks sinks) {
-  return TrackRun(options, recording, filters, sinks).run();
+  return TrackRun(options, recording, filters, std::move(sinks)).run();
 }
 
 void TrackTally::goes_to(const std::vector<double>& mean, int axes) {
