@@ -91,7 +91,7 @@ TEST_F(RecognitionReport, ReliabilityIsThatOfThePredictions) {
   }
 }
 
-/// Names of classes that are no names to a page or to gnuplot.
+/// Names of classes that are no names to a page.
 TEST_F(RecognitionReport, ShowsAClassAsItIsCalled) {
   std::string text = "size,colour,kind\n";
   for (int i = 0; i < 40; ++i)
