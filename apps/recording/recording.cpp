@@ -50,7 +50,7 @@ std::string columns_for(std::span<const std::string> headers) {
     if (const auto name = known_as(header); !name.empty() && name != header) found.try_emplace(name, csv_field(header));
   const auto mapped = each(found, [](const auto& one) { return fmt::format("{}={}", one.first, one.second); });
   const std::string words = fmt::format("{}", fmt::join(mapped, ","));
-  if (words.empty()) return words;
+  if (words.empty()) return "";
   return "--columns " + (words.find_first_of(" ()[]\"") == words.npos ? words : "'" + words + "'");
 }
 

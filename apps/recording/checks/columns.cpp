@@ -26,7 +26,7 @@ void check_columns(const Records& records, Findings& findings) {
       std::size_t both = 0, equal = 0;
       std::set<double> different;
       for (std::size_t k = 0; k < one.size(); ++k) {
-        both += std::isnan(one[k].first + other[k].first) ? 0 : 1;
+        both += std::isnan(one[k].first + other[k].first) ? 0U : 1U;
         if (one[k].first != other[k].first) continue;
         ++equal;
         if (different.size() < few) different.insert(one[k].first);
