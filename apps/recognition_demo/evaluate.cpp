@@ -224,7 +224,7 @@ LineChart reliability_chart(const Outcome& outcome, std::size_t foldings) {
       .y_label = "share of such classes that are the true one",
       .curves = {{.name = "share, ± 95 %"}, {.name = fuzzy ? "bound: not more often than possible" : "calibrated"}},
       .greatest_y = 1.15,
-      .note = "Above each point: how many classes of rows had such a degree.",
+      .note = "Above each point: the number of rows and classes with such a degree.",
       .joined = 1.0};
   Curve& share = chart.curves[0];
   const auto add = [&](double degree, double value, double lower, double upper, std::string remark) {
@@ -237,7 +237,7 @@ LineChart reliability_chart(const Outcome& outcome, std::size_t foldings) {
   };
   add(0.0, nan, nan, nan, "");
   for (const auto& bin : outcome.reliability.bins(static_cast<double>(foldings)))
-    add(bin.mean_degree, bin.share, bin.lower, bin.upper, fmt::format("{:.{}f}", bin.count, foldings == 1 ? 0 : 1));
+    add(bin.mean_degree, bin.share, bin.lower, bin.upper, fmt::format("{:.0f}", bin.count));
   add(1.0, nan, nan, nan, "");
   return chart;
 }
