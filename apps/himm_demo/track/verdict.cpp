@@ -7,12 +7,23 @@ namespace {
 
 /// What the rules judge by.
 struct Evidence {
-  const std::string& file;
+  const RecordingOptions& options;
+  const RecordingReader& recording;
   const std::vector<FilterSettings>& filters;
   const TrackOutcome& outcome;
   const TrackOutcome* gated;
-  bool rows_tell_sigmas, is_one_track;
-  std::string tune;  ///< the command that fits the noise
+
+  const std::string& file() const { return recording.file(); }
+
+  /// The command that fits the noise to the recording.
+  std::string tune() const {
+    std::string words = "himm_demo tune " + options.file;
+    for (const std::string& column : options.columns) words += fmt::format(" --columns \"{}\"", column);
+    for (const std::string& choice : options.select) words += fmt::format(" --select \"{}\"", choice);
+    if (!options.track_id.empty()) words += fmt::format(" --track-id \"{}\"", options.track_id);
+    if (options.skip_bad_times) words += " --on-bad-time skip";
+    return fmt::format("fit it by {} --out best.toml, and give --config best.toml", words);
+  }
 };
 
 /// The conversion of a radar's measurements to positions is biased.
@@ -22,7 +33,7 @@ std::string conversion(const Evidence& evidence) {
   return fmt::format(
       "{}:{}: the conversion to positions is biased in {} of {} measurements (r σ_α²/σ_r ≥ {}): --set "
       "radar_measurement=polar --set member=ukf",
-      evidence.file, unsuited.first_line, unsuited.rows, evidence.outcome.measurements, most_conversion_bias);
+      evidence.file(), unsuited.first_line, unsuited.rows, evidence.outcome.measurements, most_conversion_bias);
 }
 
 /// A gate turns a fifth of a track away, and at least five rows: the filter does not follow the target.
@@ -32,8 +43,8 @@ std::string gate(const Evidence& evidence) {
       if (const std::size_t rejected = tally.nis[f].rejected; rejected >= 5 && 5 * rejected > tally.measurements)
         return fmt::format(
             "{}: the gate of filter '{}' turned {} of {} measurements{} away, and it lost the target: {}",
-            evidence.file, evidence.filters[f].name, rejected, tally.measurements,
-            track.empty() ? "" : fmt::format(" of track '{}'", track), evidence.tune);
+            evidence.file(), evidence.filters[f].name, rejected, tally.measurements,
+            track.empty() ? "" : fmt::format(" of track '{}'", track), evidence.tune());
   return "";
 }
 
@@ -59,7 +70,7 @@ std::string outliers(const Evidence& evidence) {
   };
   if (!evidence.gated)
     return fmt::format("{}: {} of {} measurements have an NIS above {}: reject outliers with --set gate_probability={}",
-                       evidence.file, outcome.outliers, outcome.measurements, outlier_nis, outlier_gate);
+                       evidence.file(), outcome.outliers, outcome.measurements, outlier_nis, outlier_gate);
   const TrackOutcome& gated = *evidence.gated;
   const Refused& refused = gated.refused_by_all;
   const std::size_t lost = 5 * std::max(starts(gated), starts(outcome)) - 5 * starts(outcome);  // rows, of all filters
@@ -69,7 +80,7 @@ std::string outliers(const Evidence& evidence) {
   const double km = 1e-3 * refused.metres;
   return fmt::format(
       "{}:{}: {} outlier{} in {} measurements, this one {} off: reject {} with --set gate_probability={}",
-      evidence.file, refused.worst_line, refused.rows, refused.rows == 1 ? "" : "s", outcome.measurements,
+      evidence.file(), refused.worst_line, refused.rows, refused.rows == 1 ? "" : "s", outcome.measurements,
       km < 10.0 ? fmt::format("{:.4g} m", refused.metres) : fmt::format("{:.0f} km", km),
       refused.rows == 1 ? "it" : "them", outlier_gate);
 }
@@ -95,19 +106,17 @@ std::string noise(const Evidence& evidence) {
     const bool is_large = of_all([&](const InnovationTally& one) { return size(one) < 0.3; });
     const bool is_small =
         of_all([&](const InnovationTally& one) { return one.share_inside() < (many_far ? 0.94 : least_share); });
-    if (!is_large && !is_small) continue;
-    if (!sensors.empty() && is_large != large) continue;
+    if ((!is_large && !is_small) || (worst && is_large != large)) continue;
     large = is_large;
     sensors.push_back("'" + sensor + "'");
     if (!worst || tally.share_inside() < worst->share_inside()) worst = &tally;
   }
   if (!worst) return "";
-  if (!large && evidence.is_one_track && size(*worst) > 20.0)
+  if (!large && !evidence.recording.has_tracks() && size(*worst) > 20.0)
     return fmt::format(
         "{}: innovations are {:.2g} times too large: several targets or false detections are mixed, or a unit is "
-        "wrong; "
-        "tell targets apart with --track-id COLUMN",
-        evidence.file, size(*worst));
+        "wrong; tell targets apart with --track-id COLUMN",
+        evidence.file(), size(*worst));
   const double lasts = worst->autocorrelation();
   const bool is_sensor = !(std::abs(lasts) > 0.3 && (lasts < 0.0) == large);
   const std::string whose =
@@ -123,9 +132,10 @@ std::string noise(const Evidence& evidence) {
                         outlier_nis)
           : fmt::format("too small ({:.0f} % of the innovations are where 95 % should be)",
                         100.0 * worst->share_inside());
-  return fmt::format(
-      "{}: {} is {}: {}", evidence.file, whose, by,
-      evidence.rows_tell_sigmas && is_sensor ? "see the unit of the columns of standard deviations" : evidence.tune);
+  return fmt::format("{}: {} is {}: {}", evidence.file(), whose, by,
+                     evidence.recording.tells_accuracy() && is_sensor
+                         ? "see the unit of the columns of standard deviations"
+                         : evidence.tune());
 }
 
 /// The truth is farther from the estimates of every filter than twice what they state.
@@ -141,34 +151,18 @@ std::string truth(const Evidence& evidence) {
   }
   if (!(times > 2.0)) return "";
   return fmt::format("{}: the estimates are {:.3g} m off the truth (RMS), {:.2g} times what they state: {}",
-                     evidence.file, error, times, evidence.tune);
+                     evidence.file(), error, times, evidence.tune());
 }
 
 /// No rule asks another one; what brings others about stands above.
 constexpr std::array rules = {conversion, gate, outliers, noise, truth};
-
-/// The command that fits the noise to the recording.
-std::string tune_command(const RecordingOptions& recording) {
-  std::string words = "himm_demo tune " + recording.file;
-  for (const std::string& column : recording.columns) words += fmt::format(" --columns \"{}\"", column);
-  for (const std::string& choice : recording.select) words += fmt::format(" --select \"{}\"", choice);
-  if (!recording.track_id.empty()) words += fmt::format(" --track-id \"{}\"", recording.track_id);
-  if (recording.skip_bad_times) words += " --on-bad-time skip";
-  return fmt::format("fit it by {} --out best.toml, and give --config best.toml", words);
-}
 
 }  // namespace
 
 std::string verdict_of(const TrackOptions& options, const RecordingReader& recording,
                        const std::vector<FilterSettings>& filters, const TrackOutcome& outcome,
                        const TrackOutcome* gated) {
-  const Evidence evidence{recording.file(),
-                          filters,
-                          outcome,
-                          gated,
-                          recording.tells_accuracy(),
-                          !recording.has_tracks(),
-                          tune_command(options.recording)};
+  const Evidence evidence{options.recording, recording, filters, outcome, gated};
   for (const auto rule : rules)
     if (auto words = rule(evidence); !words.empty()) return words;
   const InnovationTally& innovations = outcome.filters.front().sums[0].innovations;
