@@ -9,26 +9,16 @@
 namespace sigmax::apps {
 namespace {
 
-template <class Kind>
-Likelihood<Kind> likelihood_of(const Classifier<Kind, Kind>& classifier, const AnyReport& report) {
-  if (const auto* const readings = std::get_if<Readings>(&report)) return classifier.likelihood(*readings);
-  const auto& logs = std::get<GradedReading>(report);
-  const auto& relation = classifier.features().front().relation();
-  Likelihood<Kind> graded{relation.to()};
-  for (std::size_t f = 0; f < logs.size(); ++f) graded.set_log(f, logs[f]);
-  return compose(graded, relation);
-}
-
 /// Calls see(belief in the patterns) after each report. What would exclude every pattern is passed over; returns how
 /// many reports were. The classifier, whose tables are large, is not copied: any thread may use it.
 template <class See>
-std::size_t observe_all(const Contestant& contestant, const std::vector<AnyReport>& reports, const See& see) {
+std::size_t observe_all(const Contestant& contestant, const std::vector<Readings>& reports, const See& see) {
   std::size_t refused = 0;
   of_kind(contestant.classifier, [&](const auto& classifier) {
     Belief belief{classifier.prior()};
-    for (const AnyReport& report : reports) {
+    for (const Readings& report : reports) {
       try {
-        update(belief, likelihood_of(classifier, report), belief);
+        update(belief, classifier.likelihood(report), belief);
       } catch (const std::domain_error&) {
         ++refused;
       }
@@ -49,15 +39,27 @@ std::vector<double> numbers_of(const Belief<Kind>& belief) {
   return {distribution.values().begin(), distribution.values().end()};
 }
 
-}  // namespace
-
+/// 1 if the greatest value is that of `truth` alone, 1/n if n values tie, else 0; ties as `decide` has them.
 double credit_of(std::span<const double> logs, std::size_t truth) {
   const double greatest = *std::ranges::max_element(logs);
   if (!ties(logs[truth], greatest)) return 0.0;
   return 1.0 / static_cast<double>(std::ranges::count_if(logs, [=](double log) { return ties(log, greatest); }));
 }
 
-Trace follow(const Contestant& contestant, std::size_t truth, const std::vector<AnyReport>& reports) {
+/// How far the patterns differ about a feature: the mean distance of two patterns' distributions.
+double telling(const Relation<Random, Random>& relation) {
+  const std::size_t patterns = relation.from().size();
+  double distance = 0.0;
+  for (std::size_t a = 0; a < patterns; ++a)
+    for (std::size_t b = 0; b < a; ++b)
+      for (std::size_t value = 0; value < relation.to().size(); ++value)
+        distance += std::abs(relation(a, value) - relation(b, value));
+  return patterns < 2 ? 0.0 : distance / static_cast<double>(patterns * (patterns - 1));
+}
+
+}  // namespace
+
+Trace follow(const Contestant& contestant, std::size_t truth, const std::vector<Readings>& reports) {
   Trace trace;
   trace.refused = observe_all(contestant, reports, [&](const auto& belief) {
     trace.credit.push_back(credit_of(belief.logs(), truth));
@@ -66,7 +68,7 @@ Trace follow(const Contestant& contestant, std::size_t truth, const std::vector<
   return trace;
 }
 
-Beliefs beliefs_over(const Contestant& contestant, const std::vector<AnyReport>& reports) {
+Beliefs beliefs_over(const Contestant& contestant, const std::vector<Readings>& reports) {
   Beliefs beliefs;
   observe_all(contestant, reports, [&](const auto& belief) { beliefs.push_back(numbers_of(belief)); });
   return beliefs;
@@ -133,16 +135,6 @@ std::vector<Panel> support_charts(const std::vector<std::string>& patterns, cons
     charts.emplace_back(std::move(chart));
   }
   return charts;
-}
-
-double telling(const Relation<Random, Random>& relation) {
-  const std::size_t patterns = relation.from().size();
-  double distance = 0.0;
-  for (std::size_t a = 0; a < patterns; ++a)
-    for (std::size_t b = 0; b < a; ++b)
-      for (std::size_t value = 0; value < relation.to().size(); ++value)
-        distance += std::abs(relation(a, value) - relation(b, value));
-  return patterns < 2 ? 0.0 : distance / static_cast<double>(patterns * (patterns - 1));
 }
 
 std::vector<Panel> relation_maps(const std::vector<Relation<Random, Random>>& learned, std::size_t most) {

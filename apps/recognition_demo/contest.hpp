@@ -12,11 +12,6 @@ using MaxClassifier = Classifier<Fuzzy, Fuzzy>;
 /// For every feature the index of what was read, or `missing`.
 using Readings = std::vector<std::size_t>;
 
-/// Log-likelihoods of the values of the only feature.
-using GradedReading = std::vector<double>;
-
-using AnyReport = std::variant<Readings, GradedReading>;
-
 /// The sum of what a function or a member tells of each of several things, in their order.
 template <class Range, class Of = std::identity>
 double sum_of(const Range& range, const Of& of = {}) {
@@ -52,15 +47,12 @@ struct Trace {
   std::size_t refused = 0;
 };
 
-/// 1 if the greatest value is that of `truth` alone, 1/n if n values tie, else 0; ties as `decide` has them.
-double credit_of(std::span<const double> logs, std::size_t truth);
-
 /// The contestant's classifier, from its prior on, over the reports of one run.
-Trace follow(const Contestant& contestant, std::size_t truth, const std::vector<AnyReport>& reports);
+Trace follow(const Contestant& contestant, std::size_t truth, const std::vector<Readings>& reports);
 
 /// Probability or possibility of every pattern after each report.
 using Beliefs = std::vector<std::vector<double>>;
-Beliefs beliefs_over(const Contestant& contestant, const std::vector<AnyReport>& reports);
+Beliefs beliefs_over(const Contestant& contestant, const std::vector<Readings>& reports);
 
 /// What the contestant's classifier believes after a row of readings alone; the prior if that excludes every class.
 struct Judged {
@@ -126,8 +118,5 @@ std::vector<Panel> support_charts(const std::vector<std::string>& patterns, cons
 /// What was learned of features: p(value|class), and the possibility that it is turned into. Of many values none are
 /// shown; the most telling features come first, and no more than `most`.
 std::vector<Panel> relation_maps(const std::vector<Relation<Random, Random>>& learned, std::size_t most);
-
-/// How far the patterns differ about a feature: the mean distance of two patterns' distributions.
-double telling(const Relation<Random, Random>& relation);
 
 }  // namespace sigmax::apps

@@ -109,7 +109,7 @@ Drawn draw_run(const EsmWorld& world, const EsmTruth& truth, std::size_t reports
     const std::size_t step = 1 + draw_index(random, world.platform.size() - 1);
     heard_astray = draw_usage(world, (platform + step) % world.platform.size(), truth.usage, random);
   }
-  Drawn run{platform, {{}}};
+  Drawn run{platform, {}};
   for (std::size_t k = 0; k < reports; ++k) {
     Readings report;
     for (std::size_t s = 0; s < truth.sensors; ++s) {
@@ -117,7 +117,7 @@ Drawn draw_run(const EsmWorld& world, const EsmTruth& truth, std::size_t reports
       const std::size_t emitter = draw(random, astray ? heard_astray : usage);
       report.push_back(draw(random, sensor.row(emitter)));
     }
-    run.reports.front().emplace_back(std::move(report));
+    run.reports.push_back(std::move(report));
   }
   return run;
 }

@@ -1,7 +1,7 @@
 #include <sigmax/core/transform.hpp>
 #include <sigmax/core/witness.hpp>
 
-#include "recognition_demo/emitters.hpp"
+#include "recognition_demo/regimes.hpp"
 #include "recognition_demo/subcommands.hpp"
 
 namespace sigmax::apps {
@@ -12,6 +12,7 @@ constexpr double sensor_hit = 0.7;
 struct EsmOptions {
   std::string usage = "uniform";  ///< or dirichlet
   double alpha = 0.5;
+  std::string regime;  ///< the name of one, or all; else none
   std::size_t reports = 40;
   DrawOptions draws;
 };
@@ -61,7 +62,7 @@ HeatMap witness_map(const Relation<Fuzzy, Fuzzy>& reading_given_feature,
 /// A run that the page shows: the support of each platform over its reports.
 View view_of(const EsmWorld& world, const std::vector<Contestant>& all, std::size_t run, const Drawn& drawn) {
   constexpr std::size_t most = 100;
-  std::vector<AnyReport> reports = drawn.reports.front();
+  std::vector<Readings> reports = drawn.reports;
   if (reports.size() > most) reports.resize(most);
   const auto beliefs = each(all, [&](const Contestant& one) { return beliefs_over(one, reports); });
   return {fmt::format("run {}", run + 1), support_charts(labels_of(world.platform), all, beliefs,
@@ -90,10 +91,7 @@ void run_esm(const EsmOptions& options) {
   const EsmWorld esm;
   const auto drawn = [&](std::size_t run) {
     RandomStream random(options.draws.seed, run);
-    Drawn one = draw_run(esm, {.usage = usage_of(options), .hit = sensor_hit}, options.reports, random);
-    for (const AnyReport& report : one.reports.front())
-      one.numbers.push_back(static_cast<double>(std::get<Readings>(report).front()));
-    return one;
+    return draw_run(esm, {.usage = usage_of(options), .hit = sensor_hit}, options.reports, random);
   };
   World world{"Which platform is it?", {{contestants(esm, options), drawn}}};
   const auto& all = world.conditions.front().contestants;
@@ -103,9 +101,10 @@ void run_esm(const EsmOptions& options) {
   world.view = [&](const SeenRun& run) { return view_of(esm, all, run.run, drawn(run.run)); };
   world.runs_in_page = 6;
   world.see = [&](const SeenRun& run) {
+    if (!rows) return;
     std::string readings;
-    for (const double reading : run.numbers)
-      readings += (readings.empty() ? "" : " ") + esm.reading.label(static_cast<std::size_t>(reading));
+    for (const Readings& report : drawn(run.run).reports)
+      readings += (readings.empty() ? "" : " ") + esm.reading.label(report.front());
     rows.write(with_beliefs({run.run + 1, esm.platform.label(run.truth), readings}, run));
   };
   world.tell = [&](const std::vector<Scores>& scores, Result& result) { tell(esm, options, scores.front(), result); };
@@ -117,16 +116,27 @@ void run_esm(const EsmOptions& options) {
 void add_esm(CLI::App& program, const std::string& command) {
   const auto options = std::make_shared<EsmOptions>();
   Subcommand app(program, "esm", "Which platform is it? A synthetic world of emitters, all classifiers.");
-  app.option("--usage", options->usage, "How often a platform uses its emitters: equally, or drawn for each run")
-      .one_of({"uniform", "dirichlet"});
+  const Option usage =
+      app.option("--usage", options->usage, "How often a platform uses its emitters: equally, or drawn for each run")
+          .one_of({"uniform", "dirichlet"});
   const Option alpha =
       app.option("--alpha", options->alpha, "Parameter of the Dirichlet density; the smaller, the less equal")
           .number_in(0.01, 1000.0);
+  auto regimes = regime_names();
+  regimes.emplace_back("all");
+  const Option regime =
+      app.option("--regime", options->regime,
+                 "Where is max inference the better one? Beliefs that are wrong in one way, or in all")
+          .one_of(regimes);
   app.option("--reports", options->reports, "Reports in a run").in(1, 100000);
   add_draws(app, options->draws, command, 20000);
-  app.run([options, alpha] {
+  app.run([options, alpha, usage, regime] {
+    if (regime.given() && usage.given()) throw UsageError("--regime has usages of its own: leave out --usage");
     if (alpha.given() && options->usage == "uniform") throw UsageError("--alpha needs --usage dirichlet");
-    run_esm(*options);
+    if (regime.given())
+      run_regimes(options->regime, options->reports, options->draws);
+    else
+      run_esm(*options);
   });
 }
 

@@ -57,6 +57,11 @@ using RowChoice = std::function<bool(std::size_t row)>;
 LearnedModel learn(
     const DataTable& data, const LearningOptions& options, const RowChoice& chosen = [](std::size_t) { return true; });
 
+/// Learns of a headed CSV file that holds counts instead of rows: the label, feature, lower, upper, count, a row for
+/// each bin. Throws InputError with file, line, column and value where bins leave a gap, and for a class or a feature
+/// without counts.
+LearnedModel learn_counts(const std::string& file, const DataOptions& data, const LearningOptions& options);
+
 /// One row of the data as readings, into room that is used again.
 void read(const LearnedModel& model, const DataTable& data, std::size_t row, Readings& readings);
 

@@ -9,7 +9,7 @@ int main(int argc, char** argv) {
       {"recognition_demo",
        "Recognises patterns by sigma inference (probabilities), max inference (possibilities) and sigma-max inference "
        "(both).",
-       {add_esm, add_regimes, add_manoeuvre, add_encounter, add_performance, add_train, add_classify, add_evaluate},
+       {add_esm, add_train, add_classify, add_evaluate},
        "esm",
        usage},
       argc, argv);

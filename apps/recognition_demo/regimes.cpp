@@ -1,17 +1,10 @@
+#include "recognition_demo/regimes.hpp"
 
 #include <sigmax/core/transform.hpp>
 #include <sigmax/recognition/counts.hpp>
 
-#include "recognition_demo/emitters.hpp"
-#include "recognition_demo/subcommands.hpp"
-
 namespace sigmax::apps {
 namespace {
-
-struct RegimesOptions {
-  std::size_t reports = 40;
-  DrawOptions draws;
-};
 
 /// One setting: what really happens, and what the classifiers know.
 struct Setting {
@@ -184,33 +177,32 @@ HeatMap regime_map(const Regime& regime) {
   return map;
 }
 
-Condition condition_of(const EsmWorld& world, const Setting& setting, const RegimesOptions& options) {
+Condition condition_of(const EsmWorld& world, const Setting& setting, std::size_t reports, std::uint64_t seed) {
   const auto contestants = [&](RandomStream& random) {
     return setting.seen > 0 ? learned(world, setting, random) : from_the_lists(world, setting);
   };
-  RandomStream for_names(options.draws.seed, 0);
-  return {contestants(for_names), [&, contestants](std::size_t run) {
-            RandomStream random(options.draws.seed, run);
+  RandomStream for_names(seed, 0);
+  return {contestants(for_names), [&, contestants, reports, seed](std::size_t run) {
+            RandomStream random(seed, run);
             std::vector<Contestant> anew;
             if (setting.seen > 0) anew = contestants(random);
-            Drawn drawn = draw_run(world, setting.truth, options.reports, random);
+            Drawn drawn = draw_run(world, setting.truth, reports, random);
             drawn.contestants = std::move(anew);
             return drawn;
           }};
 }
 
-void tell(const RegimesOptions& options, const std::vector<Regime>& all, Result& result) {
-  const DrawOptions& draws = options.draws;
+void tell(const std::vector<Regime>& all, std::size_t reports, const DrawOptions& draws, Result& result) {
   const auto [verdict, better] = verdict_of(all);
   result.page.groups.clear();  // no chart has curves
   result.page.verdict = {
       verdict, fmt::format("Synthetic emitter world; {} runs of {} reports for each setting, seed {}. Purple: more "
                            "often right than sigma inference, orange: more seldom; the colours end at 20 points.",
-                           draws.runs, options.reports, draws.seed)};
+                           draws.runs, reports, draws.seed)};
   result.say(
       "Synthetic emitter world, not recorded data; {} runs of {} reports for each setting, seed {}. Differences are "
       "points ± 95 % by paired runs.",
-      draws.runs, options.reports, draws.seed);
+      draws.runs, reports, draws.seed);
   for (const Regime& regime : all) {
     result.text += "\n";
     result.say(regime.description);
@@ -220,7 +212,7 @@ void tell(const RegimesOptions& options, const std::vector<Regime>& all, Result&
   result.text += "\n";
   result.say(verdict);
   if (!better.empty()) result.add(better, {.title = "Better than sigma inference"});
-  result.facts("synthetic", true, "runs", draws.runs, "reports", options.reports, "seed", draws.seed);
+  result.facts("synthetic", true, "runs", draws.runs, "reports", reports, "seed", draws.seed);
   auto rows = ResultTable::of_keys({"regime", "setting", "classifier", "accuracy", "difference", "lower", "upper"});
   for (const Regime& regime : all)
     for (const Setting& setting : regime.settings) {
@@ -234,32 +226,26 @@ void tell(const RegimesOptions& options, const std::vector<Regime>& all, Result&
   result.add(rows, {.printed = false, .csv = "regimes.csv"});
 }
 
-void run_regimes(const RegimesOptions& options) {
-  ResultFiles files(options.draws.output);
+}  // namespace
+
+std::vector<std::string> regime_names() { return each(regimes(), &Regime::name); }
+
+void run_regimes(const std::string& name_or_all, std::size_t reports, const DrawOptions& draws) {
+  ResultFiles files(draws.output);
   const EsmWorld esm;
   auto all = regimes();
+  if (name_or_all != "all") std::erase_if(all, [&](const Regime& regime) { return regime.name != name_or_all; });
   World world{"Where is max inference the better one?", {}};
   for (const Regime& regime : all)
-    for (const Setting& setting : regime.settings) world.conditions.push_back(condition_of(esm, setting, options));
+    for (const Setting& setting : regime.settings)
+      world.conditions.push_back(condition_of(esm, setting, reports, draws.seed));
   world.tell = [&](const std::vector<Scores>& scores, Result& result) {
     auto next = scores.begin();
     for (Regime& regime : all)
       for (Setting& setting : regime.settings) setting.scores = *next++;
-    tell(options, all, result);
+    tell(all, reports, draws, result);
   };
-  run_world(world, options.draws, files);
-}
-
-}  // namespace
-
-void add_regimes(CLI::App& program, const std::string& command) {
-  const auto options = std::make_shared<RegimesOptions>();
-  Subcommand app(
-      program, "regimes",
-      "Where is max inference the better one? The synthetic world, with beliefs that are wrong in several ways.");
-  app.option("--reports", options->reports, "Reports in a run").in(1, 100000);
-  add_draws(app, options->draws, command, 5000);
-  app.run([options] { run_regimes(*options); });
+  run_world(world, draws, files);
 }
 
 }  // namespace sigmax::apps

@@ -10,7 +10,8 @@ struct TrainOptions {
   DataOptions data;
   LearningOptions learning;
   std::vector<std::string> kinds = kind_names;
-  std::string model;  ///< the file to write
+  bool counts = false;  ///< what the file holds, else rows
+  std::string model;    ///< the file to write
   OutputOptions output;
 };
 
@@ -23,26 +24,39 @@ ResultTable features_table(const LearnedModel& model) {
   return table;
 }
 
-void run_train(const TrainOptions& options) {
-  refuse_to_overwrite("--model", options.model, {options.file});
+LearnedModel of_rows(const TrainOptions& options, Result& result) {
   const DataTable data = read_data(options.file, options.data, options.output.quiet);
   print_findings(data);
   LearnedModel model = learn(data, options.learning);
   model.missing = options.data.missing;
   model.right = right_when_left_out(data, options.learning);
-  write_model(model, options.kinds, options.model);
+  result.say("{}: {}", data.file, described(data));
+  return model;
+}
 
+LearnedModel of_counts(const TrainOptions& options, Result& result) {
+  LearnedModel model = learn_counts(options.file, options.data, options.learning);
+  model.missing = options.data.missing;
+  for (std::size_t c = 0; c < model.counts.pattern().size(); ++c)
+    result.say("{}: {}, {} counted", options.file, model.counts.pattern().label(c), model.counts.rows(c));
+  return model;
+}
+
+void run_train(const TrainOptions& options) {
+  refuse_to_overwrite("--model", options.model, {options.file});
   Result result = result_of_contest("", options.output);
-  result.say("{}: {}\n{}", data.file, described(data), described(options.learning));
+  const LearnedModel model = options.counts ? of_counts(options, result) : of_rows(options, result);
+  write_model(model, options.kinds, options.model);
+  result.say(described(options.learning));
   result.add(features_table(model), {});
   for (const Contestant& classifier : classifiers(model, options.kinds)) {
     const auto found = dominated({classifier});
     if (found.empty()) continue;
     result.say("warning: {} can never prefer {}: whatever is read, {} is at least as possible{}", classifier.name,
                in_quotes(found[0].pattern), in_quotes(found[0].dominator),
-               found.size() == 1
-                   ? ""
-                   : fmt::format("; so it is with {} others of {} classes", found.size() - 1, data.classes.size()));
+               found.size() == 1 ? ""
+                                 : fmt::format("; so it is with {} others of {} classes", found.size() - 1,
+                                               model.counts.pattern().size()));
   }
   fmt::print("{}\nWrote {}\n", result.text, options.model);
 }
@@ -53,6 +67,8 @@ void add_train(CLI::App& program, const std::string&) {
   const auto options = std::make_shared<TrainOptions>();
   Subcommand app(program, "train", "Learns a model from labelled data.");
   add_learning(app, options->file, options->data, options->learning);
+  app.flag("--counts", options->counts,
+           "DATA holds counts instead of rows: the label, feature, lower, upper, count, a row for each bin");
   app.option("--model", options->model, "The model to write").required().type("MODEL.json");
   app.option("--kinds", options->kinds, "The kinds of classifiers in the model")
       .list()

@@ -7,8 +7,8 @@
 namespace sigmax::apps {
 namespace {
 
-/// A run as the row of a cell: the truth; of each contestant its credits, its belief and what it refused; the world's
-/// own numbers. Before each list stands how long it is.
+/// A run as the row of a cell: the truth; of each contestant its credits, its belief and what it refused. Before
+/// each list stands how long it is.
 Study::Row row_of(const Drawn& drawn, const std::vector<Contestant>& contestants) {
   Study::Row row = {static_cast<double>(drawn.truth)};
   const auto add = [&](const std::vector<double>& numbers) {
@@ -16,12 +16,11 @@ Study::Row row_of(const Drawn& drawn, const std::vector<Contestant>& contestants
     row.insert(row.end(), numbers.begin(), numbers.end());
   };
   for (std::size_t i = 0; i < contestants.size(); ++i) {
-    const Trace trace = follow(contestants[i], drawn.truth, drawn.reports[drawn.reports.size() == 1 ? 0 : i]);
+    const Trace trace = follow(contestants[i], drawn.truth, drawn.reports);
     add(trace.credit);
     add(trace.belief);
     row.push_back(static_cast<double>(trace.refused));
   }
-  add(drawn.numbers);
   return row;
 }
 
@@ -33,9 +32,8 @@ SeenRun run_of(const Study::Row& row, std::size_t condition, std::size_t run, st
     at = first + static_cast<std::ptrdiff_t>(*at);
     return std::vector<double>(first, at);
   };
-  SeenRun seen{condition, run, number(), {}, {}};
+  SeenRun seen{condition, run, number(), {}};
   for (std::size_t i = 0; i < contestants; ++i) seen.traces.push_back({numbers(), numbers(), number()});
-  seen.numbers = numbers();
   return seen;
 }
 
@@ -190,11 +188,11 @@ void add_scores(Result& result, const Scores& scores, const std::string& what_is
   result.add(curves, {.printed = false, .csv = "curves.csv"});
 }
 
-LineChart accuracy_chart(const Scores& scores, const std::string& what_is_counted, std::size_t first) {
+LineChart accuracy_chart(const Scores& scores, const std::string& what_is_counted) {
   LineChart chart{.title = "Right decisions",
                   .x_label = what_is_counted,
                   .y_label = "share of the runs that are right; ties share the credit",
-                  .x = counted_from(first, scores.front().accuracy.size())};
+                  .x = counted_from(1, scores.front().accuracy.size())};
   for (const Score& score : scores) chart.curves.push_back({score.name, score.name, score.accuracy});
   return chart;
 }

@@ -23,9 +23,8 @@ void add_draws(Subcommand app, DrawOptions& options, const std::string& command,
 /// One run: the true pattern, and the reports about it.
 struct Drawn {
   std::size_t truth;
-  std::vector<std::vector<AnyReport>> reports;  ///< the same for all contestants, or those of each
-  std::vector<double> numbers{};                ///< what else `World::see` is to know of the run
-  std::vector<Contestant> contestants{};        ///< if they learn anew in every run
+  std::vector<Readings> reports;
+  std::vector<Contestant> contestants{};  ///< if they learn anew in every run
 };
 
 /// Who is compared, and a run by its number, which any thread draws.
@@ -39,7 +38,6 @@ struct SeenRun {
   std::size_t condition, run;
   std::size_t truth;
   std::vector<Trace> traces;
-  std::vector<double> numbers;
 };
 
 /// What all runs together say of one contestant.
@@ -83,8 +81,8 @@ ResultTable scores_table(const Scores& scores, const std::string& what_is_counte
 /// The table in all its places, with what it cannot say, and curves.csv: report,classifier,accuracy.
 void add_scores(Result& result, const Scores& scores, const std::string& what_is_counted = "reports");
 
-/// Shares of right decisions over the reports, one curve a contestant, from the report with number `first` on.
-LineChart accuracy_chart(const Scores& scores, const std::string& what_is_counted = "reports", std::size_t first = 1);
+/// Shares of right decisions over the reports, one curve a contestant.
+LineChart accuracy_chart(const Scores& scores, const std::string& what_is_counted = "reports");
 
 /// The columns of a file of beliefs at the end of runs, after others, and their cells.
 std::vector<std::string> with_beliefs(std::vector<std::string> keys, const std::vector<Contestant>& contestants,

@@ -125,8 +125,7 @@ TEST(RecognitionDemoEsm, TablesFitATerminalUnlessTheyMayBeWide) {
   };
   for (const std::vector<std::string>& arguments :
        {std::vector<std::string>{"esm", "--usage", "dirichlet", "--runs", "5"},
-        {"regimes", "--runs", "2", "--reports", "3"},
-        {"manoeuvre", "--runs", "2"}}) {
+        {"esm", "--regime", "usage", "--runs", "2", "--reports", "3"}}) {
     EXPECT_LE(widest(recognition_demo(arguments).output), 80U) << arguments.front();
     auto wide = arguments;
     wide.push_back("--wide");
@@ -137,8 +136,8 @@ TEST(RecognitionDemoEsm, TablesFitATerminalUnlessTheyMayBeWide) {
 TEST(RecognitionDemoRegimes, BeginWithTheWorldThatTheClassifiersAssume) {
   const TemporaryDirectory directory;
   ASSERT_EQ(esm(directory.path() / "esm", {"--runs", "20", "--reports", "4", "--seed", "7"}).status, 0);
-  const auto regimes = recognition_demo_succeeds(
-      {"regimes", "--runs", "20", "--reports", "4", "--seed", "7", "--quiet", "--out", directory.path() / "regimes"});
+  program::succeeded(
+      esm(directory.path() / "regimes", {"--regime", "all", "--runs", "20", "--reports", "4", "--seed", "7"}));
   std::map<std::string, std::string> last;
   for (const auto& row : rows_of(directory.path() / "esm" / "curves.csv"))
     if (row.at("report") == "4") last[row.at("classifier")] = row.at("accuracy");

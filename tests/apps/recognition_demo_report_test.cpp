@@ -144,7 +144,7 @@ TEST_F(RecognitionReport, OfEsmShowsThroughWhichEmitterAReadingIsPossible) {
 }
 
 TEST_F(RecognitionReport, OfRegimesHasTheDifferencesOfTheSummary) {
-  const Json data = page_of({"regimes", "--runs", "20", "--reports", "5"});
+  const Json data = page_of({"esm", "--regime", "all", "--runs", "20", "--reports", "5"});
   ASSERT_EQ(data.at("panels").size(), summary_.at("regimes").size());
   for (const auto& [regime, settings] : summary_.at("regimes").items()) {
     const Json map = panel_called(data.at("panels"), "Regime " + regime);
@@ -157,71 +157,6 @@ TEST_F(RecognitionReport, OfRegimesHasTheDifferencesOfTheSummary) {
       }
   }
   expect_drawn(page());
-}
-
-TEST_F(RecognitionReport, OfManoeuvreHasTheScoresOfTheSummaryAndAFlightOfEachTarget) {
-  const Json data = page_of({"manoeuvre", "--runs", "20"});
-  ASSERT_EQ(data.at("views").size(), 4U);
-  for (const auto& [target, classifiers] : summary_.at("targets").items()) {
-    const Json chart = panel_called(data.at("views")[0].at("panels"), "Right decisions about the " + target);
-    EXPECT_EQ(chart.at("x").back(), 30.0);
-    for (const auto& curve : chart.at("curves"))
-      expect_close(curve.at("values").back(), classifiers.at(curve.at("name").get<std::string>()).at("accuracy"), 1e-6);
-  }
-  // What the page shows of the first flight is what samples.csv and runs.csv say of it.
-  const auto samples = rows_of(directory.path() / "samples.csv");
-  const Json himm = panel_called(data.at("views")[1].at("panels"), "Modes of the HIMM");
-  EXPECT_CLOSE(himm.at("curves")[0].at("values")[29].get<double>(), std::stod(samples[29].at("himm_cv")), 1e-6);
-  const auto runs = rows_of(directory.path() / "runs.csv");
-  const Json airliner = panel_called(data.at("views")[1].at("panels"), "airliner, the truth");
-  for (const auto& curve : airliner.at("curves"))
-    EXPECT_CLOSE(curve.at("values").back().get<double>(),
-                 std::stod(runs[0].at(curve.at("name").get<std::string>() + ": airliner")), 1e-6);
-  expect_drawn(page());
-}
-
-TEST_F(RecognitionReport, OfEncounterHasWhatWasCountedAndDecided) {
-  const Json data = page_of({"encounter", directory.write("counts.csv", counts_csv()), "--runs", "30"});
-  const Json map = panel_called(data.at("last"), "What was learned of airspeed_kt");
-  EXPECT_CLOSE(map.at("values")[1][0].get<double>(), 0.01, 1e-12);
-  expect_numbers_of_the_summary();
-}
-
-TEST_F(RecognitionReport, OfARecordingFollowsTheSupportOfEachClass) {
-  std::string rows = "time_s,altitude_ft,groundspeed_kt,track_deg,vertical_rate_fpm\n";
-  for (int k = 0; k < 2000; ++k)
-    rows +=
-        std::to_string(10 * k) + "," + std::to_string(k % 3 ? 300 : 2000) + ",90,10," + (k % 2 ? "10" : "-10") + "\n";
-  const Json data = page_of({"encounter", directory.write("counts.csv", counts_csv()), "--track",
-                             directory.write("track.csv", rows), "--ground", "0"});
-  const Json& panels = data.at("views").at(0).at("panels");
-  ASSERT_EQ(panels.size(), 2U);
-  EXPECT_LE(panels[0].at("x").size(), 1000U);
-  EXPECT_TRUE(says(panels[0].at("note").get<std::string>(), {"of 2000 reports"}));
-  const Json slow = panel_called(panels, "slow");  // a temporary would not outlive the loop's head
-  for (const auto& curve : slow.at("curves"))
-    expect_close(curve.at("values").back(),
-                 summary_.at("classifiers").at(curve.at("name").get<std::string>()).at("belief_after_all").at("slow"),
-                 1e-6);
-  expect_drawn(page());
-}
-
-TEST_F(RecognitionReport, OfPerformanceShowsEachTypesPossibilities) {
-  const Json data = page_of({"performance",
-                             directory.write("performance.csv",
-                                             "type,variable,optimum,minimum,maximum,model,parameters\n"
-                                             "a,range,2,1,4,norm,2|0.7\na,speed,20,10,40,norm,21|8\n"
-                                             "b,range,3,2,5,norm,3.2|0.9\nb,speed,15,12,50,norm,25|10\n"),
-                             "--runs", "30"});
-  ASSERT_EQ(data.at("views").size(), 2U);
-  const Json range = panel_called(data.at("views")[0].at("panels"), "range");
-  for (const auto& curve : range.at("curves")) {
-    const auto values = curve.at("values").get<Numbers>();
-    const auto best = static_cast<std::size_t>(std::max_element(values.begin(), values.end()) - values.begin());
-    EXPECT_EQ(values[best], 1.0) << curve.at("name");
-    EXPECT_CLOSE(range.at("x")[best].get<double>(), 2.0, 0.1) << curve.at("name");  // where the optimum is
-  }
-  expect_numbers_of_the_summary();
 }
 
 }  // namespace recognition_demo_report_test

@@ -20,9 +20,9 @@ void run_coins(const DrawOptions& options) {
   const auto draw_run = [&](std::size_t run) {
     RandomStream random(options.seed, run);
     const std::size_t truth = draw_index(random, coin.size());
-    std::vector<AnyReport> throws;
-    for (int k = 0; k < 10; ++k) throws.emplace_back(Readings{draw(random, probable.row(truth))});
-    return Drawn{truth, {throws}};
+    std::vector<Readings> throws;
+    for (int k = 0; k < 10; ++k) throws.push_back({draw(random, probable.row(truth))});
+    return Drawn{truth, throws};
   };
   World world{"Which coin is it?", {{contestants, draw_run}}};
   world.tell = [&](const std::vector<Scores>& scores, Result& result) {
