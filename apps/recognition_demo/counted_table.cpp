@@ -47,7 +47,6 @@ LearnedModel learn_counts(const std::string& file, const DataOptions& data, cons
     throw InputError("{}: found {} classes, expected at least two", reader.file(), classes.size());
 
   std::vector<FeatureCode> codes;
-  std::vector<RandomVariable> variables;
   for (std::size_t i = 0; i < names.size(); ++i) {
     const auto& edges = all[{0, i}].edges;
     for (std::size_t c = 0; c < classes.size(); ++c)
@@ -59,9 +58,8 @@ LearnedModel learn_counts(const std::string& file, const DataOptions& data, cons
                      .bins = Discretization{{edges.begin() + 1, edges.end() - 1}},
                      .least = edges.front(),
                      .greatest = edges.back()});
-    variables.emplace_back(names[i], codes.back().labels());
   }
-  LearnedModel model{data.label, {}, std::move(codes), {RandomVariable{data.label, classes}, variables}, options};
+  LearnedModel model = begun(data.label, classes, std::move(codes), options);
   const Readings nothing(names.size(), missing);
   for (std::size_t c = 0; c < classes.size(); ++c) {
     double rows = 0.0;  // as many as the most counted feature tells

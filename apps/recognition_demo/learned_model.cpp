@@ -52,8 +52,8 @@ Contestant fuzzy(const LearnedModel& model, const std::string& name, const Metho
 
 }  // namespace
 
-LearnedModel learn(const DataTable& data, const LearningOptions& options, const RowChoice& chosen) {
-  auto codes = each(data.columns, [&](const DataColumn& one) { return fitted(one, chosen, options); });
+LearnedModel begun(const std::string& label, const std::vector<std::string>& classes, std::vector<FeatureCode> codes,
+                   const LearningOptions& options) {
   std::vector<RandomVariable> variables;
   for (const FeatureCode& code : codes) {
     variables.emplace_back(code.name, code.labels());
@@ -64,8 +64,13 @@ LearnedModel learn(const DataTable& data, const LearningOptions& options, const 
           "one: give at most {3:.2f}",
           options.misread, in_quotes(code.name), n, std::floor(100.0 * (n - 1.0) / n) / 100.0);
   }
-  Counts counts{RandomVariable{data.label, data.classes}, std::move(variables)};
-  LearnedModel model{data.label, {}, std::move(codes), std::move(counts), options};
+  Counts counts{RandomVariable{label, classes}, std::move(variables)};
+  return {label, {}, std::move(codes), std::move(counts), options};
+}
+
+LearnedModel learn(const DataTable& data, const LearningOptions& options, const RowChoice& chosen) {
+  auto codes = each(data.columns, [&](const DataColumn& one) { return fitted(one, chosen, options); });
+  LearnedModel model = begun(data.label, data.classes, std::move(codes), options);
   Readings readings;
   for (std::size_t row = 0; row < data.size(); ++row) {
     if (!chosen(row)) continue;
