@@ -1,10 +1,10 @@
 #include "recognition_demo/table_checks.hpp"
 
+#include <array>
 #include <map>
 #include <set>
 
 #include "support/command_line.hpp"
-#include "support/nines.hpp"
 #include "support/text.hpp"
 
 namespace sigmax::apps {
@@ -91,14 +91,50 @@ std::string tells_class(const DataTable& table, const DataColumn& column) {
       rows, typed(column.name));
 }
 
+/// Whether a number is 99, -999, -99.9 or 8888, the least or greatest of an integer type, or beyond all sense.
+bool is_code(double number) {
+  constexpr std::array ends = {-2147483648.0, -32768.0, 32767.0, 65535.0, 2147483647.0, 4294967295.0};
+  if (std::ranges::find(ends, number) != ends.end() || std::abs(number) >= 1e20) return true;
+  std::string digits = shortest(std::abs(number));
+  std::erase(digits, '.');
+  return std::abs(number) >= 77.0 && digits[0] >= '7' && digits.find_first_not_of(digits[0]) == digits.npos;
+}
+
+/// Numbers at one end of a column that are codes, or come again, farther from the others than these are from each
+/// other; or a code of which there are no others below 0.
+std::string far_numbers(const DataColumn& column) {
+  constexpr std::size_t again = 3, few_values = 8, most_codes = 3;
+  std::map<double, std::size_t> all;
+  for (const double number : column.numbers)
+    if (!std::isnan(number)) ++all[number];
+  for (const bool above : {false, true}) {
+    std::map<double, std::size_t> rest = all;
+    std::vector<std::string> words;
+    std::size_t cells = 0;
+    while (words.size() < most_codes && rest.size() > 1) {
+      const auto [number, times] = above ? *rest.rbegin() : *rest.begin();
+      if (times < again && !is_code(number)) break;
+      rest.erase(number);
+      words.push_back(shortest(number));
+      cells += times;
+      const double low = rest.begin()->first, high = rest.rbegin()->first, next = above ? high : low;
+      const bool lone = words.size() == 1 && times >= again && low >= 0.0 && rest.size() > few_values &&
+                        std::set{-1.0, -9.0, -99.0, -999.0}.contains(number);
+      const double gap = std::abs(number - next);
+      const bool far =
+          gap > high - low && gap > 0.05 * std::abs(next) && (rest.size() >= few_values || is_code(number));
+      if ((lone || far) && column.numbers.size() >= few_rows + 2 * cells)
+        return of_column(column.name, ": {} {} {}, far from the others; if {} for no value, give --missing={}", cells,
+                         cells == 1 ? "cell is" : "cells are", fmt::join(words, " or "),
+                         words.size() == 1 ? "that stands" : "these stand", fmt::join(words, ","));
+    }
+  }
+  return "";
+}
+
 /// Numbers or words that may stand for no value.
 std::string sentinels(const DataTable& table, const DataColumn& column) {
-  if (column.numeric) {
-    Nines nines(true);
-    for (const double number : column.numbers)
-      if (!std::isnan(number)) nines.see(shortest(number), number);
-    return nines.doubt(column.name);
-  }
+  if (column.numeric) return far_numbers(column);
   const auto unknown = std::ranges::find_if(column.values, says_unknown);
   if (unknown == column.values.end()) return "";
   return of_column(column.name,
