@@ -64,4 +64,10 @@ Contestant read_by(std::string name, const Relation<Kind, Kind>& emitter_given_p
 /// probability for Dirichlet(α). The reference: nothing can be better but by what the grid leaves out.
 Contestant usage_aware_contestant(const EsmWorld& world, const Usage& usage, const Relation<Random, Random>& sensor);
 
+/// The names of the regimes: ways in which beliefs about the emitter world are wrong.
+std::vector<std::string> regime_names();
+
+/// Who does better in a regime, or in all of them: a table for each, and a verdict.
+void run_regimes(const std::string& name_or_all, std::size_t reports, const DrawOptions& draws);
+
 }  // namespace sigmax::apps

@@ -1,7 +1,7 @@
 #include <sigmax/core/transform.hpp>
 #include <sigmax/core/witness.hpp>
 
-#include "recognition_demo/regimes.hpp"
+#include "recognition_demo/emitters.hpp"
 #include "recognition_demo/subcommands.hpp"
 
 namespace sigmax::apps {
@@ -124,10 +124,12 @@ void add_esm(CLI::App& program, const std::string& command) {
           .number_in(0.01, 1000.0);
   auto regimes = regime_names();
   regimes.emplace_back("all");
-  const Option regime =
-      app.option("--regime", options->regime,
-                 "Where is max inference the better one? Beliefs that are wrong in one way, or in all")
-          .one_of(regimes);
+  const Option regime = app.option("--regime", options->regime,
+                                   fmt::format("Where is max inference the better one? Beliefs that are wrong in one "
+                                               "way, or in all: {}",
+                                               fmt::join(regimes, ", ")))
+                            .one_of(regimes)
+                            .text("NAME");
   app.option("--reports", options->reports, "Reports in a run").in(1, 100000);
   add_draws(app, options->draws, command, 20000);
   app.run([options, alpha, usage, regime] {

@@ -53,10 +53,6 @@ struct LearnedModel {
 /// Says whether a row is to be learned from; the same at every call.
 using RowChoice = std::function<bool(std::size_t row)>;
 
-/// A model that has counted nothing yet. Throws UsageError where a feature would be misread more often than read.
-LearnedModel begun(const std::string& label, const std::vector<std::string>& classes, std::vector<FeatureCode> codes,
-                   const LearningOptions& options);
-
 /// Fits bins and counts on some rows of the data, or on all.
 LearnedModel learn(
     const DataTable& data, const LearningOptions& options, const RowChoice& chosen = [](std::size_t) { return true; });
