@@ -44,7 +44,8 @@ TEST(Completion, OffersWhatTheProgramsOwnHelpLists) {
   using Words = std::vector<std::string>;
   EXPECT_EQ(offered(SIGMAX_HIMM_DEMO, "himm_demo s"), (Words{"simulate", "sweep"}));
   EXPECT_EQ(offered(SIGMAX_HIMM_DEMO, "himm_demo track --ra"), (Words{"--radar", "--radar-at"}));
-  EXPECT_EQ(offered(SIGMAX_RECOGNITION_DEMO, "recognition_demo train --mis"), (Words{"--missing", "--misread"}));
+  EXPECT_EQ(offered(SIGMAX_RECOGNITION_DEMO, "recognition_demo train --mis"),
+            (Words{"--missing", "--missing-value", "--misread"}));
   EXPECT_EQ(offered(SIGMAX_HIMM_DEMO, "himm_demo track fl"), Words{});  // a file: bash itself knows
 }
 
