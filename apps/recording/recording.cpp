@@ -572,9 +572,6 @@ std::string RecordingReader::taken() const {
   std::vector<std::string> parts = {times_have_dates_
                                         ? fmt::format("{} and {}", csv_.names()[*date_], csv_.names()[time_])
                                         : fmt::format("{} in {}", csv_.names()[time_], time_unit_->words)};
-  for (const TimeColumn& other : time_columns)
-    if (&other != time_unit_ && says_unit(csv_.names()[time_], other.name.substr(5)))
-      parts[0] += fmt::format(", as --columns says, and not in {}", other.words);
   for (std::size_t q = 0; q < quantities.size(); ++q) {
     if (!columns_[q]) continue;
     const Quantity& quantity = quantities[from_zenith_ && q == place_of(Role::polar) + 2 ? q + 2 : q];
@@ -585,9 +582,6 @@ std::string RecordingReader::taken() const {
         if (other.words != columns_[q]->unit->words && says_unit(header_of(q), other.suffix) &&
             quantity.role != Role::covariance)
           part += fmt::format(", as --columns says, and not in {}", other.words);
-    const bool is_height = q == place_of(Role::place) + 2 || q == place_of(Role::position) + 2;
-    if (is_height && lower_case(header_of(q)).find("depth") != std::string::npos)
-      part += ", as --columns says, and so upwards, although it is called a depth";
     if (q == place_of(Role::polar) + 1)
       part += fmt::format(" {}{}",
                           azimuth_from_ == AzimuthFrom::north   ? "clockwise from north"

@@ -1,5 +1,6 @@
 #include "support/csv.hpp"
 
+#include <array>
 #include <cassert>
 #include <cerrno>
 #include <iostream>
@@ -19,61 +20,38 @@ constexpr std::size_t longest_record = std::size_t{1} << 20;
 
 bool is_blank(std::string_view text) { return trimmed(text).empty(); }
 
-/// How many there are outside quotes.
-std::size_t count_in(std::string_view line, char separator) {
-  bool quoted = false;
-  std::size_t count = 0;
-  for (const char byte : line) {
-    quoted ^= byte == '"';
-    count += !quoted && byte == separator ? 1U : 0U;
+constexpr std::string_view separators = ",\t;";
+using Counts = std::array<std::size_t, separators.size()>;
+
+/// Takes a line from a text. Counts each separator in it outside quotes, which open at the beginning of a field only.
+Counts take_line(std::string_view& text, std::string_view& line) {
+  Counts counts{};
+  bool quoted = false, at_start = true;
+  std::size_t end = 0;
+  for (; end < text.size() && (quoted || (text[end] != '\n' && text[end] != '\r')); ++end) {
+    const auto which = separators.find(text[end]);
+    if (which != separators.npos && !quoted) ++counts[which];
+    quoted = text[end] == '"' ? at_start && !quoted : quoted;
+    at_start = which != separators.npos || (at_start && text[end] == ' ');
   }
-  return count;
+  line = text.substr(0, end);
+  text.remove_prefix(std::min(end + 1, text.size()));
+  return counts;
 }
 
-/// A tab or semicolon beside the commas of a header, as where a name is "Length, mm": if it parts the header and the
-/// line below into as many fields, and the comma does not.
-std::optional<char> instead_of_comma(std::string_view from_header) {
-  const auto end = from_header.find('\n');
-  if (end == std::string_view::npos) return std::nullopt;
-  const std::string_view header = from_header.substr(0, end), rest = from_header.substr(end + 1);
-  const std::string_view row = rest.substr(0, rest.find('\n'));
-  const auto is_whole = [](std::string_view line) { return std::ranges::count(line, '"') % 2 == 0; };
-  if (!is_whole(header) || !is_whole(row) || count_in(header, ',') == count_in(row, ',')) return std::nullopt;
-  for (const char other : {'\t', ';'})
-    if (const auto count = count_in(header, other); count > 0 && count == count_in(row, other)) return other;
-  return std::nullopt;
-}
-
-/// A comma if the header has one, but for `instead_of_comma`, else a tab, else a semicolon, all outside quotes, which
-/// open at the beginning of a field only. Lines of words before it that begin with # have none.
+/// The separator that occurs most often in the header, and as often in the line below; else the first of the header.
+/// Lines of words before the header begin with # and have no comma.
 char separator_of(std::string_view text) {
-  char found = ',';
-  std::size_t line = 0, at = 0;
-  bool quoted = false, in_field = false, blank = true, comment = false;
-  for (; at < text.size(); ++at) {
-    const char byte = text[at];
-    if (quoted) {
-      quoted = byte != '"';
-    } else if (byte == ',') {
-      return instead_of_comma(text.substr(line)).value_or(byte);
-    } else if (byte == '\n' || byte == '\r') {
-      if (!blank && !(comment && found == ',')) return found;
-      found = ',';
-      line = at + 1;
-      in_field = comment = false;
-      blank = true;
-    } else if (byte == '\t' || byte == ';') {
-      if (found != '\t') found = byte;
-      in_field = false;
-      blank = blank && byte == '\t';
-    } else if (byte != ' ') {
-      quoted = byte == '"' && !in_field;
-      comment = comment || (blank && byte == '#');
-      in_field = !quoted;
-      blank = false;
-    }
-  }
-  return found;
+  std::string_view line;
+  Counts header{};
+  do header = take_line(text, line);
+  while (!text.empty() && (is_blank(line) || (trimmed(line).starts_with('#') && header[0] == 0)));
+  const Counts row = take_line(text, line);
+  std::size_t best = separators.size();
+  for (const bool alike : {true, false})
+    for (std::size_t i = 0; i < separators.size() && (alike || best == separators.size()); ++i)
+      if (header[i] > (best < separators.size() ? header[best] : 0) && (!alike || header[i] == row[i])) best = i;
+  return best < separators.size() ? separators[best] : ',';
 }
 
 std::string_view plural_of(char separator) {

@@ -107,19 +107,9 @@ std::optional<double> parse_timestamp(std::string_view text, const std::string& 
 }
 
 std::string_view doubt_of_format(std::string_view format) {
-  std::string told;  // the directives, and those that others stand for
-  for (auto at = format.find('%'); at != format.npos && at + 1 < format.size(); at = format.find('%', at + 2)) {
-    const char each = format[std::min(format.find_first_not_of("EO0123456789_-^#", at + 1), format.size() - 1)];
-    told += each == 'D' || each == 'F' || each == 'c' || each == 'x' ? "Ymd" : std::string(1, each);
-  }
-  const auto tells = [&](std::string_view any) { return told.find_first_of(any) != told.npos; };
-  if (tells("Z")) return "names of zones are not read: add a column of UTC, or zones as +02:00, which %z reads";
-  if (tells("p") && tells("HkRT")) return "%p goes with hours up to 12, %I: beside %H it tells nothing";
-  const bool of_year = tells("Yy") && (tells("j") || (tells("UW") && tells("aAuw")));
-  if (tells("aAjuwUWGgV") && !of_year && !tells("des"))
-    return "that does not tell the day: give day and month, or with the year the day in it, %Y-%j, or week and "
-           "weekday, %Y-%W-%u; weeks as ISO 8601 counts them, %G and %V, are not read";
-  return {};
+  const bool names_zone = format.find("%Z") != format.npos, has_half = format.find("%p") != format.npos;
+  if (names_zone) return "names of zones are not read: add a column of UTC, or zones as +02:00, which %z reads";
+  return has_half && format.find("%I") == format.npos ? "%p goes with hours up to 12, %I" : "";
 }
 
 bool is_time_of_day(std::string_view text) { return parse_time_of_day(trimmed(text)).has_value(); }
