@@ -271,7 +271,7 @@ class Views {
       for (std::size_t f = 0; f < experiment_.filters.size(); ++f)
         made.curves.push_back(
             {name(f), name(f), by_sample([&, figure = figure](std::size_t k) { return found[f + 1].at(k, figure); })});
-      limit_axis(made);
+      keep_usual(made);
       view.panels.emplace_back(std::move(made));
     }
   }

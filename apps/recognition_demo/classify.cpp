@@ -163,7 +163,6 @@ void add_facts(const ClassifyOptions& options, const RandomVariable& pattern, co
                const RowReader& rows, Result& result) {
   result.facts("model", options.model, "file", options.file, "rows", found.rows, "least_margin", options.least_margin);
   if (rows.unseen_cells() > 0) result.fact({"unseen_cells_counted_as_missing"}, rows.unseen_cells());
-  if (rows.far_cells() > 0) result.fact({"numbers_far_from_those_learned_from"}, rows.far_cells());
   for (const Tally& tally : found.tallies) {
     for (std::size_t c = 0; c < pattern.size(); ++c)
       result.fact({"classifiers", tally.name, "decided", pattern.label(c)}, tally.decided[c]);
@@ -204,21 +203,6 @@ void fill(Report& page, const ClassifyOptions& options, const LearnedModel& mode
   if (page.views.size() < result.rows)
     page.verdict.push_back(fmt::format("The first {} rows can be chosen; --rows says how many.", page.views.size()));
   page.last = relation_maps(learned_relations(model.counts, model.options.smoothing), 6);
-}
-
-/// Says which classes no row was recognised of, and by whom.
-void say_unrecognised(const std::vector<std::string>& classes, const Classified& found, Result& result) {
-  std::map<std::string, std::vector<std::string>> classifiers_of;
-  for (const Tally& tally : found.tallies) {
-    std::vector<std::string> never;
-    for (std::size_t c = 0; c < classes.size(); ++c)
-      if (const std::size_t rows = found.rows_of_class[c]; rows > 0 && tally.recognised[c] == 0.0)
-        never.push_back(fmt::format("{} ({} rows)", classes[c], rows));
-    if (!never.empty()) classifiers_of[listed(never, 12)].push_back(tally.name);
-  }
-  for (const auto& [never, names] : classifiers_of)
-    result.say("Not one row was recognised of {} by {}", never,
-               names.size() == found.tallies.size() ? "any classifier" : fmt::format("{}", fmt::join(names, "; ")));
 }
 
 /// Says if the rows are right less often than those that were learned were when left out, class by class, since there
@@ -271,10 +255,7 @@ void run_classify(const ClassifyOptions& options) {
   for (const Tally& tally : found.tallies)
     if (tally.excluded > 0)
       result.say("{}: {} rows excluded every class and were judged by the prior", tally.name, tally.excluded);
-  if (!in_another_unit) {  // else that is the cause
-    say_unrecognised(labels_of(pattern), found, result);
-    say_swapped(model, found, result);
-  }
+  if (!in_another_unit) say_swapped(model, found, result);  // else that is the cause
   if (options.explain)
     for (const ShownRow& row : found.shown) {
       result.text += fmt::format("\nline {}\n", row.line);

@@ -66,18 +66,6 @@ ResultTable outcomes_table(const DataTable& data, const Results& results, std::s
 /// Sigma, and max by the ratio scale.
 constexpr std::array<std::size_t, 2> shown_in_full = {0, 1};
 
-ResultTable confusion_table(const DataTable& data, const Outcome& outcome, std::size_t foldings) {
-  ResultTable table;
-  for (std::size_t truth = 0; truth < data.classes.size(); ++truth) {
-    std::vector<Field> row = {{of_words("", fmt::format("{}: true class", outcome.name)), data.classes[truth]}};
-    for (std::size_t c = 0; c < data.classes.size(); ++c)
-      row.push_back({{.header = data.classes[c], .digits = foldings == 1 ? 0 : 1},
-                     outcome.confusion()(truth, c) / static_cast<double>(foldings)});
-    table.row_of(row);
-  }
-  return table;
-}
-
 /// Recall and precision of each class, by the classifiers that are shown in full.
 ResultTable classes_table(const DataTable& data, const Results& results) {
   ResultTable table;
@@ -189,10 +177,6 @@ void say_scores(const DataTable& data, const Results& results, const EvaluateOpt
       result.say("{}: {:.3g} rows excluded every class and were judged by the prior", outcome.name,
                  excluded(outcome, options.foldings));
   result.add(classes_table(data, results), {.summary = {"of_each_class"}});
-  constexpr std::size_t most_classes = 10;
-  if (data.classes.size() <= most_classes)
-    for (const std::size_t i : shown_in_full)
-      result.add(confusion_table(data, results.outcomes[i], options.foldings), {});
   const std::string use = advice(data, results, options);
   result.page.verdict.push_back(use);
   result.fact({"advice"}, use);

@@ -20,12 +20,6 @@ Groups groups_of(const DataTable& data, const std::string& column) {
     if (name.empty() || says_unknown(name)) throw row.error(place, "the name of the row's group", "fill the cell");
     groups.push_back(numbers.try_emplace(name, static_cast<std::uint32_t>(numbers.size())).first->second);
   }
-  if (const std::string two = alike(each(numbers, [](const auto& one) { return std::string_view(one.first); }));
-      !two.empty())
-    complain(
-        fmt::format("recognition_demo: warning: {}: column {}: {} differ in writing only, and count as two groups; "
-                    "write them alike",
-                    data.file, in_quotes(column), two));
   return groups;
 }
 

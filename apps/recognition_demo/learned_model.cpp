@@ -15,10 +15,8 @@ FeatureCode fitted(const DataColumn& column, const RowChoice& chosen, const Lear
     for (std::size_t row = 0; row < column.numbers.size(); ++row)
       if (chosen(row)) fit.see(column.numbers[row]);
   } while (fit.wants_another_pass());
-  code.least = fit.least();
-  code.greatest = fit.greatest();
-  const bool wide = options.equal_width && code.least < code.greatest;
-  code.bins = wide ? equal_width(std::array{code.least, code.greatest}, options.bins) : fit.discretization();
+  const bool wide = options.equal_width && fit.least() < fit.greatest();
+  code.bins = wide ? equal_width(std::array{fit.least(), fit.greatest()}, options.bins) : fit.discretization();
   return code;
 }
 
@@ -129,10 +127,7 @@ LearnedModel learn_counts(const std::string& file, const DataOptions& data, cons
         throw InputError({.where = reader.file(),
                           .what = fmt::format("class {}, feature {}", in_quotes(classes[c]), in_quotes(names[i])),
                           .expected = "counts, in the same bins for every class"});
-    codes.push_back({.name = names[i],
-                     .bins = Discretization{{edges.begin() + 1, edges.end() - 1}},
-                     .least = edges.front(),
-                     .greatest = edges.back()});
+    codes.push_back({.name = names[i], .bins = Discretization{{edges.begin() + 1, edges.end() - 1}}});
   }
   LearnedModel model = begun(data.label, classes, std::move(codes), options);
   const Readings nothing(names.size(), missing);

@@ -11,10 +11,9 @@ namespace sigmax::apps {
 /// How one column of data becomes readings: an index into its values, or into bins of its numbers.
 struct FeatureCode {
   std::string name;
-  std::vector<std::string> values{};                     ///< of a categorical feature
-  std::optional<Discretization> bins{};                  ///< of a numeric one
-  double least = std::nan(""), greatest = std::nan("");  ///< number learned from, NaN where it is not known
-  bool missing_is_value = false;                         ///< the last one
+  std::vector<std::string> values{};     ///< of a categorical feature
+  std::optional<Discretization> bins{};  ///< of a numeric one
+  bool missing_is_value = false;         ///< the last one
 
   std::size_t size() const { return (bins ? bins->size() : values.size()) + (missing_is_value ? 1 : 0); }
 

@@ -86,10 +86,6 @@ FeatureCode feature_code(const Node& node) {
     if (cuts.size() > 1 && cuts[cuts.size() - 2] >= cuts.back()) throw each.error("cuts in ascending order");
   }
   code.bins = Discretization{cuts};
-  if (node.has("range")) {  // models of old have none
-    const auto ends = node.at("range").list("numbers", 2);
-    std::tie(code.least, code.greatest) = std::pair(ends[0].number(), ends[1].number());
-  }
   return code;
 }
 
@@ -137,7 +133,6 @@ void write_model(const LearnedModel& model, std::span<const std::string> kinds, 
     const FeatureCode& code = model.features[i];
     Json feature = {{"name", code.name}};
     if (code.bins) feature["cuts"] = std::vector<double>(code.bins->cuts().begin(), code.bins->cuts().end());
-    if (code.least <= code.greatest) feature["range"] = {code.least, code.greatest};
     if (!code.bins) feature["values"] = code.values;
     if (code.missing_is_value) feature["missing_is_value"] = true;
     for (std::size_t c = 0; c < counts.pattern().size(); ++c)

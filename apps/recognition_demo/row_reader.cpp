@@ -5,21 +5,6 @@ namespace {
 
 constexpr const char* remedy = "leave the cell empty, or have all such cells counted as missing by --unseen missing";
 
-/// Whether a number is three times as far from the cuts between bins as they are from each other, and beyond the
-/// range learned from by as much as that; or, of a quantity that is never zero, a tenth and as far beyond by its
-/// logarithm. Of amounts, with a long tail, it is beyond half the range of their logarithms, too.
-bool is_far(double number, const FeatureCode& feature) {
-  const auto cuts = feature.bins->cuts();
-  if (number > 0.0 && 10.0 * number < feature.least && number * feature.greatest < feature.least * feature.least)
-    return true;
-  const double range = feature.greatest - feature.least;
-  if (cuts.size() < 2 || (feature.least - range <= number && number <= feature.greatest + range)) return false;
-  const bool has_tail = feature.least > 0.0 && feature.greatest - cuts.back() > 3.0 * (cuts.front() - feature.least);
-  if (has_tail && number > 0.0 && number < feature.greatest * std::sqrt(feature.greatest / feature.least)) return false;
-  const double far = 3.0 * (cuts.back() - cuts.front());
-  return number < cuts.front() - far || number > cuts.back() + far;
-}
-
 }  // namespace
 
 RowReader::RowReader(const LearnedModel& model, const CsvReader& reader, bool unseen_is_missing)
@@ -52,7 +37,6 @@ std::optional<std::size_t> RowReader::truth(const CsvRow& row) {
 bool RowReader::say_otherwise(Result& result) const {
   bool in_another_unit = false;
   constexpr double enough = 20.0, much = 0.6;
-  constexpr std::size_t one_in = 200;
   if (unseen_cells_ > 0)
     result.say("\n{} as missing, since the model does not know {}: {}",
                unseen_cells_ == 1 ? "1 cell counts" : fmt::format("{} cells count", unseen_cells_),
@@ -68,17 +52,13 @@ bool RowReader::say_otherwise(Result& result) const {
     const auto share = [&](const std::vector<double>& counts) { return counts[bin] / sum_of(counts); };
     while (bin < learned.size() && !(all >= enough && share(column.binned) > share(learned) + much)) ++bin;
     const bool crowds = bin < learned.size();
-    const bool are_far = column.far > 0 && static_cast<double>(one_in * column.far) >= all;
-    in_another_unit = in_another_unit || crowds || are_far;
+    in_another_unit = in_another_unit || crowds;
     if (crowds)
       result.say(
           "\nColumn {}: {:.0f} % of {} numbers are {}, {:.0f} % of those learned from; write them in the same "
           "unit",
           in_quotes(feature.name), 100.0 * share(column.binned), all, feature.bins->labels()[bin],
           100.0 * share(learned));
-    else if (are_far)
-      result.say("\n{} far from those learned from; write them in the same unit. The first: {}",
-                 column.far == 1 ? "1 number is" : fmt::format("{} numbers are", column.far), column.first_far);
     if (column.filled == 0 && rows_ > 1)
       result.say("\nColumn {} has no value in any of {} rows", in_quotes(feature.name), rows_);
   }
@@ -105,15 +85,6 @@ std::size_t RowReader::reading(const CsvRow& row, std::size_t i) {
   if (!number)
     return unseen(row, column.index, "a finite number with a decimal point",
                   has_decimal_comma(cell) ? "write a decimal comma as a point" : remedy);
-  if (is_far(*number, feature)) {
-    ++far_cells_;
-    if (column.far++ == 0)
-      column.first_far = row.error(column.index, feature.least <= feature.greatest
-                                                     ? fmt::format("a number from {} to {}, as those learned from",
-                                                                   shortest(feature.least), shortest(feature.greatest))
-                                                     : "a number nearer to those learned from")
-                             .what();
-  }
   const std::size_t bin = feature.bins->bin(*number);
   ++column.binned[bin];
   return bin;

@@ -18,13 +18,11 @@ class RowReader {
   /// The class of a row, if it is given.
   std::optional<std::size_t> truth(const CsvRow& row);
 
-  /// How many cells held what the model does not know, and how many numbers were far from those that it was learned
-  /// from.
+  /// How many cells held what the model does not know.
   std::size_t unseen_cells() const { return unseen_cells_; }
-  std::size_t far_cells() const { return far_cells_; }
 
   /// Says which cells count as missing, and of which columns the numbers seem to be in another unit than those that
-  /// were learned: where one bin has 60 % more of them, of 20 or more, else where some are far from these. Returns
+  /// were learned: where one bin has 60 % more of them, of 20 or more. Returns
   /// whether there are such columns.
   bool say_otherwise(Result& result) const;
 
@@ -32,8 +30,6 @@ class RowReader {
   struct Column {
     std::size_t index, filled = 0;
     std::vector<double> binned;  // numbers by bin
-    std::size_t far = 0;
-    std::string first_far{};
   };
 
   std::size_t reading(const CsvRow& row, std::size_t i);
@@ -47,7 +43,7 @@ class RowReader {
   std::vector<std::string> classes_;
   std::vector<Column> columns_;
   std::size_t rows_ = 0;
-  std::size_t unseen_cells_ = 0, far_cells_ = 0;
+  std::size_t unseen_cells_ = 0;
   std::string first_unseen_;
 };
 

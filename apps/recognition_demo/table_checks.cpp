@@ -213,17 +213,6 @@ std::string written_otherwise(const std::string& column, const std::vector<std::
   return two.empty() ? "" : of_column(column, ": {} differ in writing only, and count as two; write them alike", two);
 }
 
-/// Whether a class is a number of nines, as 99 or -9, beyond all others by more than there are classes.
-bool is_nines(std::string_view name, const std::vector<std::string>& classes) {
-  const double side = name.starts_with('-') ? -1.0 : 1.0;
-  double nearest = infinity;
-  for (const auto& other : classes) {
-    if (!parse_number(other)) return false;
-    if (other != name) nearest = std::min(nearest, side * (*parse_number(name) - *parse_number(other)));
-  }
-  return name.find_first_not_of("-9") == name.npos && nearest > static_cast<double>(classes.size());
-}
-
 std::vector<std::string> of_classes(const DataTable& table) {
   const auto& classes = table.classes;
   std::vector<std::string> found = {written_otherwise(table.label, classes)};
@@ -236,7 +225,7 @@ std::vector<std::string> of_classes(const DataTable& table) {
   for (std::size_t c = 0; c < classes.size(); ++c) {
     const std::string name = lower_case(classes[c]);
     const bool is_minus = name == "-" && std::ranges::find(classes, "+") == classes.end();
-    if (says_unknown(name) || is_minus || name == "--" || name == "unknown" || is_nines(name, classes))
+    if (says_unknown(name) || is_minus || name == "--" || name == "unknown")
       found.push_back(of_column(table.label,
                                 ": {} of {} rows hold {}, which counts as a class; if their class is not "
                                 "known, remove these rows",

@@ -41,26 +41,6 @@ std::optional<double> not_available(std::string_view header) {
   return std::nullopt;
 }
 
-std::string_view instead_of(std::string_view header) {
-  static const std::pair<std::vector<std::string_view>, std::string_view> reasons[] = {
-      {{"accuracy", "sigma_m", "std_m"}, "one standard deviation along each axis is sigma_position_m"},
-      {{"doppler", "radial_velocity"},
-       "how fast the range grows is range_rate_mps, how fast it falls closing_rate_mps"},
-      {{"elevation_m", "elevation_ft", "height"}, "a height is altitude_m beside a latitude, else z_m"},
-      {{"depression"}, "an angle upwards from the horizon is elevation_deg"},
-      {{"sensor-type", "sensor_type", "sensor_id", "sensor_name"}, "what tells sensors apart is sensor"},
-      {{"heading", "sensor_heading", "sensor_yaw", "yaw"},
-       "a course is track_deg; where azimuths, or velocities, are from the bow, turn them by it"},
-      {{"latitude_min", "longitude_min", "lat_min", "lon_min"},
-       "minutes of degrees do not count: add a 60th of them to the degrees"},
-      {{"depth"}, "a height is upwards: altitude_m beside a latitude, else z_m, of minus the depth"},
-      {{"sensor_height"}, "how high a sensor stands is sensor_altitude_m beside a latitude, else sensor_z_m"}};
-  for (const auto& [stems, reason] : reasons)
-    for (const std::string_view stem : stems)
-      if (has_stem(header, stem)) return reason;
-  return {};
-}
-
 const Quantity* without_known_unit(std::string_view header) {
   const Quantity* found = nullptr;
   std::size_t longest = 0;

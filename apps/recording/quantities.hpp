@@ -160,9 +160,6 @@ void for_each_header(const Quantity& quantity, const Use& use) {
 /// name alone; a `course_deg` of 360 is one.
 std::optional<double> not_available(std::string_view header);
 
-/// Why a column is not read whose name says what others are read for; or empty.
-std::string_view instead_of(std::string_view header);
-
 /// The quantity that a header seems to name without a unit that is read, as `range_furlong` or `x`; or null.
 const Quantity* without_known_unit(std::string_view header);
 

@@ -245,7 +245,6 @@ bool RecordingReader::next(Row& row) {
   row.roll_deg = roll_ ? number_in(*roll_) : std::nullopt;
   if (sensor_ && row.sensor.empty()) throw row_.error(*sensor_, "the name of the row's sensor", "fill the cell");
   take_numbers();
-  if (said(Role::course).value_or(0.0) < 0.0 && said(Role::course, 1).value_or(0.0) < 0.0) ++negative_speeds_;
   row.truth = position(Role::truth);
   row.rates = rates();
   const double time = row.plot.time;
@@ -305,20 +304,16 @@ bool RecordingReader::take_time(Row& row) {
     if (of_day) latest_of_day_ = time;
     return true;
   }
-  const double week_s = 7.0 * day_s, before = last.time;
   if (!options_.skip_bad_times)
     throw row_.error(
-        time_, fmt::format("a time after that of the row before, {}", shortest(before)),
-        time >= 0.0 && time < day_s && before > week_s - day_s && before < week_s
-            ? "if these are seconds of the week, a new one begins here: add 604800 from here on"
-        : sensor_ ? "sort the rows by time and drop repeated ones of one sensor, or give --on-bad-time skip"
-        : time == before
+        time_, fmt::format("a time after that of the row before, {}", shortest(last.time)),
+        sensor_ ? "sort the rows by time and drop repeated ones of one sensor, or give --on-bad-time skip"
+        : time == last.time
             ? fmt::format(
                   "where several sensors measure at one time, name them in a column sensor{}; where times were "
                   "rounded, write them in full; else drop repeated rows, or give --on-bad-time skip",
                   track_ ? "" : ", and where several targets do, give the column that tells them apart by --track-id")
-            : fmt::format("sort the rows by time, or where a clock counts down, change its sign{}, or give "
-                          "--on-bad-time skip",
+            : fmt::format("sort the rows by time{}, or give --on-bad-time skip",
                           track_ ? "" : "; or where there are several targets, tell them apart by --track-id COLUMN"));
   ++skipped_;
   return false;
@@ -648,12 +643,9 @@ std::string RecordingReader::unused() const {
       if (index) add(*index, why_unused(q));
     });
     for (std::size_t index = 0; index < names.size() && !named; ++index)
-      if (!is_a_name(names[index]) && instead_of(names[index]).empty() &&
-          without_known_unit(names[index]) == &quantities[q])
+      if (!is_a_name(names[index]) && without_known_unit(names[index]) == &quantities[q])
         add(index, advice(quantities[q]));
   }
-  for (std::size_t index = 0; index < names.size(); ++index)
-    if (const auto reason = instead_of(names[index]); !reason.empty()) add(index, reason);
   for (std::size_t index = 0; index < names.size(); ++index) add(index, {});
   return list_of(reasons, [](const auto& one) {
     return fmt::format("{}{}", fmt::join(one.second, ", "), one.first.empty() ? "" : " (" + one.first + ")");
@@ -670,9 +662,6 @@ std::vector<std::string> RecordingReader::notes() const {
       {!missing.empty(), "Cells that say that there is no number: " + missing},
       {unused_velocities_ > 0,
        fmt::format("Velocities do not count in rows of a radar or with a bearing: {} rows", unused_velocities_)},
-      {negative_speeds_ > 0, fmt::format("Speeds and courses below 0, which are taken as they are: {} rows; where they "
-                                         "stand for none, name them by --missing",
-                                         negative_speeds_)},
       {bearings_ > 0 && unused_azimuths_ > 0,
        fmt::format("Azimuths do not count in rows with a position: {} rows", unused_azimuths_)},
       {senseless_.rows > 0, fmt::format("Rows with a number that no measurement can be, which count as missed: {}, the "

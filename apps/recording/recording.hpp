@@ -96,9 +96,6 @@ class RecordingReader {
   bool says_azimuth_from() const {
     return options_.azimuth_from || columns_[place_of(Role::polar) + 1]->unit->from_north;
   }
-  bool counts_closing() const {
-    return has(Role::range_rate) && columns_[place_of(Role::range_rate)]->unit->value < 0.0;
-  }
   /// Whether times are numbers, and of seconds.
   bool times_are_numbers() const { return times_are_numbers_; }
   bool times_are_seconds() const { return times_are_numbers_ && time_unit_->unit_s == 1.0; }
@@ -208,7 +205,6 @@ class RecordingReader {
   std::map<std::size_t, std::size_t> missing_cells_;  // by column
   Counted midnights_;                                 // that tracks passed
   std::size_t unused_velocities_ = 0;
-  std::size_t negative_speeds_ = 0;      // beside a negative course
   std::size_t bearings_ = 0;             // that count
   std::size_t unused_azimuths_ = 0;      // beside a position
   std::optional<double> latest_of_day_;  // the time of the last row with a time of day, since the first midnight

@@ -195,19 +195,6 @@ std::string shown_in(const HeatMap& map, std::size_t row, std::size_t column) {
   return !map.marked.empty() && map.marked[row][column] ? number + "*" : number;
 }
 
-void limit_axis(LineChart& chart) {
-  std::vector<double> all;
-  for (const Curve& curve : chart.curves)
-    std::ranges::copy_if(curve.values, std::back_inserter(all), [](double value) { return std::isfinite(value); });
-  if (all.empty()) return;
-  std::ranges::sort(all);
-  double usual = 3.0 * all[all.size() / 2];
-  for (const Marked& expected : chart.expected) usual = std::max(usual, 2.0 * expected.to);
-  if (all.back() <= 2.0 * usual) return;
-  chart.greatest_y = usual;
-  chart.note = fmt::format("The axis is cut; the greatest value is {}.", sized_text(all.back(), 1));
-}
-
 void keep_usual(LineChart& chart) {
   std::vector<double> usual;
   double least = 0.0, greatest = 0.0;
@@ -222,7 +209,9 @@ void keep_usual(LineChart& chart) {
   if (usual.empty()) return;
   std::ranges::sort(usual);
   const std::size_t cut = usual.size() / 200;  // 0.5 % at each end
-  const double low = std::min(0.0, usual[cut]), high = std::max(0.0, usual[usual.size() - 1 - cut]);
+  const double low = std::min(0.0, usual[cut]);
+  double high = std::max(0.0, usual[usual.size() - 1 - cut]);
+  for (const Marked& expected : chart.expected) high = std::max(high, expected.to);
   if (low == high || greatest - least <= 2.0 * (high - low)) return;
   const double margin = 0.15 * (high - low);
   chart.least_y = std::max(least, low - margin);
@@ -230,8 +219,6 @@ void keep_usual(LineChart& chart) {
   chart.note = fmt::format("The axis is cut; numbers and bands go from {} to {}.", sized_text(least, 1),
                            sized_text(greatest, 1));
 }
-
-std::string sound_text(std::string_view text) { return Json::parse(dumped(Json(text))).get<std::string>(); }
 
 Json ResultTable::json() const {
   Json all = Json::object();

@@ -65,10 +65,6 @@ struct LineChart {
   std::optional<double> clock{};  ///< where x begins, in seconds since 1970: its axis has clock times
 };
 
-/// A curve that is far above where it should be does not make all others unreadable: the axis ends at a few times what
-/// is usual, half of all values is below, and expected, and the note says so.
-void limit_axis(LineChart& chart);
-
 /// The axis ends where nearly all numbers and bands after the first ones are, if some are far beyond: a bad first
 /// estimate does not own it.
 void keep_usual(LineChart& chart);
@@ -206,9 +202,6 @@ bool has_reports();
 /// The page: data and drawing code in one file that needs no other. Text is escaped, so that every label is shown as it
 /// is. Throws std::logic_error without the drawing code.
 std::string html(const Report& report);
-
-/// A text in which U+FFFD stands for bytes that are no UTF-8.
-std::string sound_text(std::string_view text);
 
 /// The page's data alone. Numbers of charts have seven digits; those of tables all.
 nlohmann::ordered_json data_of(const Report& report);

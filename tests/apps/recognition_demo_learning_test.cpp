@@ -307,17 +307,13 @@ TEST_F(RecognitionDemoLearning, WhatNamesTheRowsIsPointedOut) {
   EXPECT_LE(std::distance(std::sregex_iterator(names.begin(), names.end(), warning), {}), 5);
 }
 
-TEST_F(RecognitionDemoLearning, WordsThatDifferInCaseAndFarNumbersArePointedOut) {
+TEST_F(RecognitionDemoLearning, WordsThatDifferInCaseArePointedOut) {
   std::string text = "warmth,flag,kind\n";
   for (int k = 0; k < 40; ++k)
     text += fmt::format("{},{},{}\n", 15 + k % 10 + k % 2, k % 3 ? "True" : "TRUE", k % 2 ? "a" : "b");
   const auto data = directory.write("rooms.csv", text);
   const auto learned = recognition_demo_succeeds({"train", data, "--label", "kind", "--model", model});
   EXPECT_TRUE(says(learned.output, {"column 'flag': 'TRUE' and 'True' differ in writing only"}));
-  EXPECT_EQ(classify("warmth,flag\n0,True\n40,True\n").find("far"), std::string::npos);
-  const std::string said = classify("warmth,flag\n20,True\n68,True\n70,True\n");  // degrees Fahrenheit
-  EXPECT_TRUE(says(said, {"2 numbers are far from those learned from", "'68'"}));
-  EXPECT_EQ(summary().at("numbers_far_from_those_learned_from"), 2);
 }
 
 TEST_F(RecognitionDemoLearning, NumbersInAnotherUnitArePointedOut) {
@@ -329,13 +325,8 @@ TEST_F(RecognitionDemoLearning, NumbersInAnotherUnitArePointedOut) {
   train(rooms(110, 1.0));
   for (const double factor : {1.8, 0.1})
     EXPECT_TRUE(says(classify(rooms(30, factor)), {"Column 'warmth': 100 % of 30 numbers are ", "in the same unit"}));
-  EXPECT_EQ(classify(rooms(30, 1.8)).find("Not one row"), std::string::npos);  // which is the effect
   EXPECT_EQ(classify(rooms(30, 1.02)).find("unit"), std::string::npos);
   EXPECT_EQ(classify(rooms(19, 1.8)).find("unit"), std::string::npos);  // too few to know
-  auto old = nlohmann::json::parse(contents(model));
-  old.at("features").at(0).erase("range");
-  directory.write("model.json", old.dump());
-  EXPECT_TRUE(says(classify(rooms(9, 60.0)), {"nearer to those learned from"}));
 }
 
 TEST_F(RecognitionDemoLearning, CopiesOfRowsArePointedOut) {
@@ -454,11 +445,11 @@ TEST_F(RecognitionDemoLearning, MixedNumbersOfRowsAndCopiesOfAClassArePointedOut
 }
 
 TEST_F(RecognitionDemoLearning, WordsAndClassesThatStandForNoValueArePointedOut) {
-  const auto said = [&](const std::string& sex, const std::string& kind, int first = 0) {
+  const auto said = [&](const std::string& sex, const std::string& kind) {
     std::string text = "sex,weight,kind\n";
     for (int k = 0; k < 40; ++k)
       text += fmt::format("{},{}.5,{}\n", k % 4 ? k % 3 ? "f" : "m" : sex, k * 7 % 40,
-                          k % 5 ? fmt::format("{}", first + k % 2) : kind);
+                          k % 5 ? fmt::format("{}", k % 2) : kind);
     const auto data = directory.write("t.csv", text);
     return recognition_demo_succeeds({"train", data, "--label", "kind", "--model", model, "--wide"}).output;
   };
@@ -467,24 +458,22 @@ TEST_F(RecognitionDemoLearning, WordsAndClassesThatStandForNoValueArePointedOut)
                      {fmt::format("column 'sex': 10 of 40 rows hold '{0}', a value among words; if it stands for none, "
                                   "give --missing={0}",
                                   word)}));
-  for (const char* kind : {"NA", "-", "Unknown", "-9", "99"})
+  for (const char* kind : {"NA", "-", "Unknown"})
     EXPECT_TRUE(
         says(said("u", kind), {fmt::format("column 'kind': 8 of 40 rows hold '{}', which counts as a class", kind)}));
   for (const char* kind : {"2", "-1", "12"}) EXPECT_EQ(said("u", kind).find("warning"), std::string::npos) << kind;
-  EXPECT_EQ(said("u", "9", 30).find("warning"), std::string::npos);
 }
 
-TEST_F(RecognitionDemoLearning, ClassesThatNobodyRecognisesAreNamed) {
+TEST_F(RecognitionDemoLearning, AClassThatIsNeverRecognisedHasNoPrecision) {
   std::string text = "colour,kind\n";
   for (int k = 0; k < 40; ++k) text += k % 10 == 9 ? "\"red, dark\",rare\n" : "\"red, dark\",usual\nblue,other\n";
   const auto data = directory.write("trees.csv", text);
-  const std::string never = "Not one row was recognised of rare (4 rows) by any classifier";
   recognition_demo_succeeds({"evaluate", data, "--label", "kind", "--folds", "2", "--out", out});
   EXPECT_EQ(summary().at("of_each_class").at("rare").at("sigma: recall"), 0.0);
   EXPECT_TRUE(summary().at("of_each_class").at("rare").at("sigma: precision").is_null());
   train(text);
   const std::string said = classify(text + "blue,\n", {"--rows", "1", "--explain"});
-  EXPECT_TRUE(says(said, {never, "whose class is known"}));
+  EXPECT_TRUE(says(said, {"whose class is known"}));
   EXPECT_EQ(said.find("sigma-max"), std::string::npos) << said;  // which would be max inference
   const auto refused = recognition_demo({"classify", model, directory.write("new.csv", "colour\ngreen\n")});
   EXPECT_TRUE(says(refused.output, {R"(expected a value that the model knows: blue, "red, dark";)"}));
