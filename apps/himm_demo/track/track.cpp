@@ -256,7 +256,7 @@ class Reporter {
 /// What the proposed gate makes of outliers; nothing where there are none, or where a recording comes only once.
 std::optional<TrackOutcome> with_gate(TrackOptions options, const RecordingOptions& what,
                                       std::vector<FilterSettings> filters, const TrackOutcome& outcome) {
-  if (outcome.outliers == 0 || what.file == "-") return std::nullopt;
+  if (outcome.outliers == 0 || what.file == "-" || !std::filesystem::is_regular_file(what.file)) return std::nullopt;
   options.output.quiet = true;
   options.predict_to.reset();
   for (FilterSettings& filter : filters) {

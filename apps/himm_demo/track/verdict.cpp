@@ -5,9 +5,21 @@
 namespace sigmax::apps {
 namespace {
 
+/// A word as a shell reads it.
+std::string in_shell(const std::string& word) {
+  if (word.find_first_of(" \"'#?*!$&|;<>()[]{}~`\\") == std::string::npos) return word;
+  std::string text;
+  for (const char letter : word) text += letter == '\'' ? "'\\''" : std::string(1, letter);
+  return "'" + text + "'";
+}
+
+std::string joined(const std::optional<std::array<double, 3>>& numbers) {
+  return numbers ? fmt::format("{}", fmt::join(each(*numbers, shortest), ",")) : "";
+}
+
 /// What the rules judge by.
 struct Evidence {
-  const RecordingOptions& options;
+  const TrackOptions& options;
   const RecordingReader& recording;
   const std::vector<FilterSettings>& filters;
   const TrackOutcome& outcome;
@@ -15,14 +27,25 @@ struct Evidence {
 
   const std::string& file() const { return recording.file(); }
 
-  /// The command that fits the noise to the recording.
+  /// The command that fits the noise to the recording, read as it was.
   std::string tune() const {
-    std::string words = "himm_demo tune " + options.file;
-    for (const std::string& column : options.columns) words += fmt::format(" --columns \"{}\"", column);
-    for (const std::string& choice : options.select) words += fmt::format(" --select \"{}\"", choice);
-    if (!options.track_id.empty()) words += fmt::format(" --track-id \"{}\"", options.track_id);
-    if (options.skip_bad_times) words += " --on-bad-time skip";
-    return fmt::format("fit it by {} --out best.toml, and give --config best.toml", words);
+    const RecordingOptions& own = options.recording;
+    const std::vector<std::string>& sets = options.filters.sets;
+    constexpr std::array from = {"", "east", "north", "ahead"};
+    using Given = std::pair<std::string_view, std::vector<std::string>>;
+    std::string words = "himm_demo tune " + in_shell(own.file);
+    for (const auto& [option, given] :
+         {Given{"columns", each(own.columns, csv_field)}, Given{"missing", each(own.missing, csv_field)},
+          Given{"select", own.select}, Given{"time-format", {own.time_format}}, Given{"track-id", {own.track_id}},
+          Given{"on-bad-time", {own.skip_bad_times ? "skip" : ""}},
+          Given{"azimuth-from", {from[own.azimuth_from ? 1 + static_cast<std::size_t>(*own.azimuth_from) : 0]}},
+          Given{"origin", {joined(own.origin)}}, Given{"radar", {joined(options.radar.sigma)}},
+          Given{"radar-at", {joined(options.radar.at)}}, Given{"config", {options.filters.config}}, Given{"set", sets}})
+      for (const std::string& word : given)
+        if (!word.empty()) words += fmt::format(" --{}{}{}", option, word[0] == '-' ? "=" : " ", in_shell(word));
+    const bool others = !sets.empty() || !options.filters.config.empty();
+    return fmt::format("fit it by {} --out best.toml, and give --config best.toml{}", words,
+                       others ? " instead of these settings" : "");
   }
 };
 
@@ -48,15 +71,16 @@ std::string gate(const Evidence& evidence) {
   return "";
 }
 
+constexpr double least_share = 0.8;
+constexpr std::size_t least_count = 20;  // innovations
+
 /// The share of the innovations that are where 95 % should be, of the filter with the greatest.
 double share_inside(const TrackOutcome& outcome) {
   double most = 0.0;
   for (const FilterOutcome& one : outcome.filters)
-    most = std::max(most, one.sums[0].innovations.count() < 20 ? 1.0 : one.sums[0].innovations.share_inside());
+    most = std::max(most, one.sums[0].innovations.count() < least_count ? 1.0 : one.sums[0].innovations.share_inside());
   return most;
 }
-
-constexpr double least_share = 0.8;
 
 /// A gate turns a few measurements away, and most of them alone, so that no filter loses its target.
 std::string outliers(const Evidence& evidence) {
@@ -100,7 +124,7 @@ std::string noise(const Evidence& evidence) {
     const auto of_all = [&, &name = sensor](const auto& holds) {
       return std::ranges::all_of(outcome.filters, [&](const FilterOutcome& one) {
         const auto own = one.sensors.find(name);
-        return own != one.sensors.end() && own->second.count() >= 20 && holds(own->second);
+        return own != one.sensors.end() && own->second.count() >= least_count && holds(own->second);
       });
     };
     const bool is_large = of_all([&](const InnovationTally& one) { return size(one) < 0.3; });
@@ -138,6 +162,18 @@ std::string noise(const Evidence& evidence) {
                          : evidence.tune());
 }
 
+/// A filter is not consistent although others are.
+std::string of_one_filter(const Evidence& evidence) {
+  for (std::size_t f = 0; f < evidence.filters.size(); ++f)
+    if (const auto& own = evidence.outcome.filters[f].sums[0].innovations;
+        own.count() >= least_count && own.share_inside() < least_share)
+      return fmt::format(
+          "{}: the noise of filter '{}' is too small ({:.0f} % of its innovations are where 95 % should "
+          "be): {}",
+          evidence.file(), evidence.filters[f].name, 100.0 * own.share_inside(), evidence.tune());
+  return "";
+}
+
 /// The truth is farther from the estimates of every filter than twice what they state.
 std::string truth(const Evidence& evidence) {
   const auto length = [](const std::array<RootMeanSquare, 3>& axes) {
@@ -155,18 +191,19 @@ std::string truth(const Evidence& evidence) {
 }
 
 /// No rule asks another one; what brings others about stands above.
-constexpr std::array rules = {conversion, gate, outliers, noise, truth};
+constexpr std::array rules = {conversion, gate, outliers, noise, of_one_filter, truth};
 
 }  // namespace
 
 std::string verdict_of(const TrackOptions& options, const RecordingReader& recording,
                        const std::vector<FilterSettings>& filters, const TrackOutcome& outcome,
                        const TrackOutcome* gated) {
-  const Evidence evidence{options.recording, recording, filters, outcome, gated};
+  const Evidence evidence{options, recording, filters, outcome, gated};
   for (const auto rule : rules)
     if (auto words = rule(evidence); !words.empty()) return words;
   const InnovationTally& innovations = outcome.filters.front().sums[0].innovations;
-  if (innovations.count() < 10) return "too few measurements to judge by";
+  if (innovations.count() < least_count)
+    return fmt::format("not judged: {} innovations, {} are needed", innovations.count(), least_count);
   return fmt::format("consistent ({:.0f} % of the innovations are where 95 % should be)",
                      100.0 * innovations.share_inside());
 }
