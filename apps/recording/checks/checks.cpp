@@ -21,14 +21,9 @@ void RecordingChecks::see(const Row& row, const LocalFrame* frame) {
   auto sensor = std::ranges::find(records_->sensors, row.sensor);
   if (sensor == records_->sensors.end()) sensor = records_->sensors.insert(sensor, row.sensor);
   const AnyPlot& plot = row.plot;
-  const Vector none = Vector::Constant(nan);
-  Record record{.time = plot.time,
-                .line = row.line,
-                .sensor = static_cast<std::size_t>(sensor - records_->sensors.begin()),
-                .at = none,
-                .velocity = Vector(row.rates.data()),
-                .from = Vector(plot.origin.data()),
-                .truth = row.truth ? Vector(row.truth->data()) : none};
+  Record record{plot.time, row.line, static_cast<std::size_t>(sensor - records_->sensors.begin()),
+                Vector(row.rates.data()), Vector(plot.origin.data())};
+  if (row.truth) record.truth = Vector(row.truth->data());
   for (int i = 0; i < axes; ++i)
     if (const auto own = plot.sensor == AnyPlot::Sensor::components ? component_of(plot, axes + i) : std::nullopt)
       record.velocity[i] = *own;
@@ -39,6 +34,7 @@ void RecordingChecks::see(const Row& row, const LocalFrame* frame) {
     if (axes == 3) record.elevation = plot.z[2];
     if (plot.sensor == AnyPlot::Sensor::doppler) record.range_rate = plot.z[static_cast<std::size_t>(axes)];
     record.at = Vector(position_of(plot, axes)->data());
+    records_->radars.try_emplace(record.sensor, record.from);
   } else if (recording.geodetic() && axes_seen(plot, std::min(axes, 2)) == 2) {
     const Geodetic here = place_of(plot, axes, track.altitude_m);
     track.altitude_m = here.altitude_m;
@@ -63,8 +59,7 @@ std::optional<std::string> RecordingChecks::assumed() const {
   if (!(recording.polar() || recording.bearings()) || recording.says_azimuth_from()) return std::nullopt;
   return fmt::format(
       "{}:1: azimuths are read counter-clockwise from x (east), as nobody said from where they count; compass "
-      "azimuths: "
-      "--azimuth-from north, clockwise from ahead (x): --azimuth-from ahead",
+      "azimuths: --azimuth-from north, clockwise from ahead (x): --azimuth-from ahead",
       recording.file());
 }
 
@@ -98,8 +93,6 @@ double quantile_of(std::vector<double> numbers, double share) {
   std::ranges::nth_element(numbers, at);
   return *at;
 }
-
-double median_of(std::vector<double> numbers) { return quantile_of(std::move(numbers), 0.5); }
 
 const Reading* better(const std::vector<Reading>& readings, std::size_t rows_each) {
   const std::size_t n = readings.front().off.size(), in_block = std::max<std::size_t>(25 / rows_each, 4);

@@ -17,13 +17,13 @@ using Vector = Eigen::Vector3d;
 struct Record {
   double time;
   std::size_t line;
-  std::size_t sensor;                                  ///< its place among the names
-  Vector at, velocity;                                 ///< along the axes of the track's frame
+  std::size_t sensor;  ///< its place among the names
+  Vector velocity;     ///< along the axes of the track's frame
+  Vector from;         ///< where its sensor stands
+  Vector truth = Vector::Constant(nan), at = Vector::Constant(nan);
   double height = nan, climb = nan;                    ///< of a place on the Earth above the ellipsoid
   double range = nan, azimuth = nan, elevation = 0.0;  ///< of a radar
   double range_rate = nan;
-  Vector from;  ///< where its sensor stands
-  Vector truth;
 
   bool is_radar() const { return !std::isnan(range); }
 };
@@ -41,6 +41,7 @@ struct Records {
   int axes = recording.axes();
   std::vector<std::size_t> columns{};  ///< the quantities whose cells are kept
   std::vector<std::string> sensors{};
+  std::map<std::size_t, Vector> radars{};  ///< the sensors that are, and where they stood first
   std::map<std::string, Track> tracks{};
 };
 
@@ -64,8 +65,8 @@ struct Reading {
 const Reading* better(const std::vector<Reading>& readings, std::size_t rows_each = 1);
 
 /// The usual one of some numbers; NaN of none.
-double median_of(std::vector<double> numbers);
 double quantile_of(std::vector<double> numbers, double share);
+inline double median_of(std::vector<double> numbers) { return quantile_of(std::move(numbers), 0.5); }
 
 /// The rows of a track that tell a position, of each sensor; and its name.
 template <class Use>

@@ -57,6 +57,7 @@ std::vector<Off> offs_of(const Records& records, std::size_t one, std::optional<
   for (const auto& [name, track] : records.tracks) {
     const Record* last = nullptr;        // of the other
     std::vector<const Record*> waiting;  // rows of one since
+    const std::size_t begin = offs.size();
     const auto add = [&](const Record& row, const Vector& from, const Vector& to, double since, double T) {
       const Vector at = from + since / T * (to - from);
       if (T > 0.0 && offs.size() < most) offs.push_back({position(row, one_read) - at, at, Vector::Zero(), row.time});
@@ -75,28 +76,18 @@ std::vector<Off> offs_of(const Records& records, std::size_t one, std::optional<
       waiting.clear();
       last = &row;
     }
+    // From row to row the velocity of a slow target is mostly noise.
+    for (std::size_t k = begin + about; k + about < offs.size(); ++k)
+      if (const Off& from = offs[k - about], &to = offs[k + about]; to.time > from.time)
+        offs[k].velocity = (to.other - from.other) / (to.time - from.time);
   }
-  // From row to row the velocity of a slow target is mostly noise.
-  for (std::size_t k = about; k + about < offs.size(); ++k)
-    if (const Off& from = offs[k - about], &to = offs[k + about]; to.time > from.time)
-      offs[k].velocity = (to.other - from.other) / (to.time - from.time);
   return offs;
 }
-
-double dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 Reading reading_of(const std::vector<Off>& offs, std::string text, double parameters, const auto& correction) {
   Reading reading{std::move(text), {}, parameters};
   for (const Off& off : offs) reading.off.push_back((off.by - correction(off)).squaredNorm());
   return reading;
-}
-
-/// Where the sensor stands, if it is a radar.
-const Record* radar(const Records& records, std::optional<std::size_t> sensor) {
-  for (const auto& [name, track] : records.tracks)
-    for (const Record& row : track.rows)
-      if (row.sensor == sensor && row.is_radar()) return &row;
-  return nullptr;
 }
 
 std::vector<Reading> readings_of_sensors(const Records& records, std::size_t one, std::optional<std::size_t> other) {
@@ -106,16 +97,21 @@ std::vector<Reading> readings_of_sensors(const Records& records, std::size_t one
   const auto named = [&](std::size_t sensor) {
     return records.sensors[sensor].empty() ? "" : fmt::format("sensor '{}': ", records.sensors[sensor]);
   };
-  const Record *const own = radar(records, one), *const others = radar(records, other);
+  const bool own = records.radars.contains(one), others = other && records.radars.contains(*other);
+  const bool in_km = records.recording.polar() &&
+                     records.recording.taken().find(records.recording.header_of(place_of(Role::polar)) + " in km") !=
+                         std::string::npos;
   for (const Rereading& reading : rereadings) {
     if (reading.if_read && reading.if_read != records.recording.azimuth_from()) continue;
+    if (reading.range == 1e-3 && !in_km) continue;
     const auto add = [&](const Rereading& one_read, const Rereading& other_read, std::string whose) {
       readings.push_back(
           reading_of(offs_of(records, one, other, one_read, other_read), whose.append(reading.text), 0.5, nothing));
     };
     if (own) add(reading, as_read, named(one));
     if (others) add(as_read, reading, named(*other));
-    if (own && others) add(reading, reading, "all sensors: ");
+    // Whatever shrinks all ranges shrinks what they are apart.
+    if (own && others && reading.range >= 1.0) add(reading, reading, "all sensors: ");
   }
   const auto median_over = [&](const auto& number) {
     std::vector<double> numbers;
@@ -132,7 +128,7 @@ std::vector<Reading> readings_of_sensors(const Records& records, std::size_t one
                  static_cast<double>(records.axes), [=](const Off&) { return shift; }));
   // Off by a number times something of each row.
   const auto add_times = [&](double least, const auto& of, const auto& text) {
-    const double times = median_over([&](const Off& off) { return dot(off.by, of(off)) / dot(of(off), of(off)); });
+    const double times = median_over([&](const Off& off) { return off.by.dot(of(off)) / of(off).squaredNorm(); });
     if (std::abs(times) > least)
       readings.push_back(reading_of(offs, text(times), 1, [=](const Off& off) -> Vector { return times * of(off); }));
   };
@@ -142,10 +138,9 @@ std::vector<Reading> readings_of_sensors(const Records& records, std::size_t one
         return fmt::format("{}its clock is {:.2g} s {}; correct its times", named(one), std::abs(times),
                            times > 0.0 ? "early" : "late");
       });
-  for (const auto& [stands, sensor, sign] :
-       {std::tuple(own, one, 1.0), std::tuple(others, other.value_or(one), -1.0)}) {
-    if (!stands) continue;
-    const auto away = [from = stands->from, times = sign](const Off& off) -> Vector {
+  for (const auto& [sensor, sign] : {std::pair(one, 1.0), std::pair(other.value_or(one), other ? -1.0 : 0.0)}) {
+    if (sign == 0.0 || !records.radars.contains(sensor)) continue;
+    const auto away = [from = records.radars.at(sensor), times = sign](const Off& off) -> Vector {
       return times * (off.other - from);
     };
     const std::string whose = named(sensor);
