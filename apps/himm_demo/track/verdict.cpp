@@ -87,17 +87,14 @@ std::string outliers(const Evidence& evidence) {
   const TrackOutcome& outcome = evidence.outcome;
   const auto gates = [](const FilterSettings& filter) { return filter.gate_probability < 1.0; };
   if (outcome.outliers == 0 || std::ranges::any_of(evidence.filters, gates)) return "";
-  const auto starts = [](const TrackOutcome& one) {
-    std::size_t all = 0;
-    for (const FilterOutcome& filter : one.filters) all += filter.restarts;
-    return all;
-  };
   if (!evidence.gated)
     return fmt::format("{}: {} of {} measurements have an NIS above {}: reject outliers with --set gate_probability={}",
                        evidence.file(), outcome.outliers, outcome.measurements, outlier_nis, outlier_gate);
   const TrackOutcome& gated = *evidence.gated;
   const Refused& refused = gated.refused_by_all;
-  const std::size_t lost = 5 * std::max(starts(gated), starts(outcome)) - 5 * starts(outcome);  // rows, of all filters
+  std::size_t lost = 0;  // rows, of all filters
+  for (const FilterOutcome& one : gated.filters) lost += 5 * one.restarts;
+  for (const FilterOutcome& one : outcome.filters) lost -= std::min(lost, 5 * one.restarts);
   if (refused.rows == 0 || 20 * refused.rows > outcome.measurements || share_inside(gated) < least_share ||
       2 * lost > refused.rows * evidence.filters.size())
     return "";

@@ -113,8 +113,7 @@ const Reading* better(const std::vector<Reading>& readings, std::size_t rows_eac
     least = sum;
     best = &reading;
   }
-  const auto most_off = [](const Reading& reading) { return quantile_of(reading.off, 0.75); };
-  if (best == readings.data() || !(most_off(*best) < most_off(readings.front()))) return nullptr;
+  if (!(quantile_of(best->off, 0.75) < quantile_of(readings.front().off, 0.75))) return nullptr;
   constexpr double sure = 2.5, much = 0.2;
   const std::size_t blocks = std::max<std::size_t>(n / in_block, 3);
   RunningMean gains;

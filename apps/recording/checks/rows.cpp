@@ -119,11 +119,11 @@ void check_held(const Records& records, Findings& findings) {
       const double way = apart(rows[k], rows[k - 1]);
       if (way == 0.0) continue;
       ways.push_back(way);
-      different.insert(std::lround(1000.0 * std::log(way)));
+      different.insert(std::lround(1e4 * std::log(way)));
     }
     const double usual = median_of(ways), moving = std::max(1.0, 0.3 * quantile_of(speeds, 0.9));
-    std::size_t held = 0, frozen = 0, line = 0, runs = 0, by_jumps = 0;
-    std::set<long> jumps;
+    const bool is_rounded = 2 * different.size() <= ways.size();
+    std::size_t held = 0, frozen = 0, line = 0;
     for (std::size_t k = 1, end = 1; k < rows.size(); k = end + 1) {
       for (end = k; end < rows.size() && rows[end]->at.head<2>() == rows[k - 1]->at.head<2>();) ++end;
       if (end == k) continue;
@@ -132,22 +132,14 @@ void check_held(const Records& records, Findings& findings) {
       const double told = std::min(speed_of(first), speed_of(last));
       const double came = k > 1 ? apart(first, rows[k - 2]) : 0.0;
       const bool moves = told > moving && told * (last->time - first->time) > 5.0 * usual;
-      const bool stops =
-          end == rows.size() && end - k >= few && came > 0.5 * usual && 2 * different.size() > ways.size();
+      const bool stops = end == rows.size() && end - k >= few && came > 0.5 * usual;
       const double jump = end < rows.size() ? apart(rows[end], last) : 0.0;
-      if (moves || stops) {
-        held += end - k;
-        if (end - k >= 2 * few && frozen == 0) frozen = rows[k]->line;
-      } else if (jump > 0.5 * usual && came > 0.0 && (came > 0.5 * usual || jump > 1.7 * came)) {
-        ++runs;
-        by_jumps += end - k;
-        jumps.insert(std::lround(1000.0 * std::log(jump)));
-      } else {
-        continue;
-      }
+      const bool leaps = jump > 0.5 * usual && came > 0.0 && (came > 0.5 * usual || jump > 1.7 * came);
+      if (!moves && (is_rounded || !(stops || leaps))) continue;
+      held += end - k;
+      if ((moves || stops) && end - k >= 2 * few && frozen == 0) frozen = rows[k]->line;
       if (line == 0) line = rows[k]->line;
     }
-    if (jumps.size() > few && 2 * jumps.size() > runs) held += by_jumps;
     if (20 * held < rows.size() || (frozen == 0 && (held < 2 * few || 10 * held < rows.size()))) return;
     findings.push_back({name, frozen > 0 ? frozen : line,
                         fmt::format("held (frozen, repeated) positions: {} rows repeat the one before although the "

@@ -153,10 +153,7 @@ void compare(const std::vector<Path>& paths, const Words& words, Findings& findi
     std::vector<double> changes;  // from pair to pair: little where growth is no noise
     for (std::size_t k = 2; k < pairs.size(); ++k)
       changes.push_back(std::norm(pairs[k].growth - pairs[k - 2].growth) / size);
-    rough = median_of(std::move(changes));
-    least = left;
-    all = size;
-    over = rows;
+    std::tie(rough, least, all, over) = std::tuple(median_of(std::move(changes)), left, size, rows);
     readings = std::move(some);
   }
   if (readings.empty()) return;
