@@ -295,9 +295,9 @@ class TrackRun {
     const Row& row = target.row(point.tag);
     const FilterSettings& filter = filters_[f];
     const std::vector<double>& innovation = point.normalized_innovation;
-    const auto size = static_cast<std::size_t>(!innovation.empty() || !point.nis
-                                                   ? static_cast<int>(innovation.size())
-                                                   : believed(filter, row.sensor, row.plot, axes_).size);  // smoothed
+    std::size_t size = innovation.size();
+    if (innovation.empty() && point.nis)  // smoothed
+      size = static_cast<std::size_t>(believed(filter, row.sensor, row.plot, axes_).size);
     if (!row.predicted) {
       FilterOutcome& own = outcome_.filters[f];
       if (point.nis) {
@@ -368,8 +368,7 @@ class TrackRun {
           "{}: {}, or give start = \"given\" with start_mean, start_covariance_diagonal and start_time_s", file(),
           places_.several()
               ? "the bearings cross at angles too small, or are too few, to tell where a target starts; give two rows "
-                "or "
-                "more of each station, or models of less freedom (--set \"models=[dwna]\")"
+                "or more of each station, or models of less freedom (--set \"models=[dwna]\")"
               : "bearings from one place do not tell where a target starts; name each row's station in a column sensor "
                 "and say where it stands, as sensor.NAME.at = [E, N]");
     throw InputError(
@@ -382,10 +381,9 @@ class TrackRun {
                                   : fmt::format(", and {} that were skipped for their time", recording_.skipped())),
          .expected = "more than the three measurements that start a filter (two rows if the start is given)",
          .remedy = recording_.skipped() > outcome_.rows ? "sort the rows by time"
-                   : outcome_.partial > 0
-                       ? "a track starts from whole positions; drop a column that is always empty, or give a "
-                         "start (himm_demo keys)"
-                       : "give more rows, or start = \"given\" with start_time_s"});
+                   : outcome_.partial > 0 ? "a track starts from whole positions; drop a column that is always empty, "
+                                            "or give a start (himm_demo keys)"
+                                          : "give more rows, or start = \"given\" with start_time_s"});
   }
 
   const TrackOptions& options_;

@@ -165,8 +165,7 @@ std::string of_one_filter(const Evidence& evidence) {
     if (const auto& own = evidence.outcome.filters[f].sums[0].innovations;
         own.count() >= least_count && own.share_inside() < least_share)
       return fmt::format(
-          "{}: the noise of filter '{}' is too small ({:.0f} % of its innovations are where 95 % should "
-          "be): {}",
+          "{}: the noise of filter '{}' is too small ({:.0f} % of its innovations are where 95 % should be): {}",
           evidence.file(), evidence.filters[f].name, 100.0 * own.share_inside(), evidence.tune());
   return "";
 }

@@ -192,10 +192,10 @@ void check_times(const Records& records, Findings& findings) {
                                   : step > 5e-3                            ? "time_min"
                                                                            : "time_days";
     if (unit.empty()) return;
-    findings.push_back({name, rows.front()->line,
-                        fmt::format("the unit of times: steps of {:.3g} s at a speed of {:.2g} m/s look like {}; give "
-                                    "--columns {}={}",
-                                    step, speed, unit, unit, typed(records.recording.time_header()))});
+    findings.push_back(
+        {name, rows.front()->line,
+         fmt::format("the unit of times: steps of {:.3g} s at a speed of {:.2g} m/s look like {}; give --columns {}={}",
+                     step, speed, unit, unit, typed(records.recording.time_header()))});
   });
 }
 

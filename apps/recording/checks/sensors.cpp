@@ -98,9 +98,7 @@ std::vector<Reading> readings_of_sensors(const Records& records, std::size_t one
     return records.sensors[sensor].empty() ? "" : fmt::format("sensor '{}': ", records.sensors[sensor]);
   };
   const bool own = records.radars.contains(one), others = other && records.radars.contains(*other);
-  const bool in_km = records.recording.polar() &&
-                     records.recording.taken().find(records.recording.header_of(place_of(Role::polar)) + " in km") !=
-                         std::string::npos;
+  const bool in_km = records.recording.taken().find(" in km") != std::string::npos;
   for (const Rereading& reading : rereadings) {
     if (reading.if_read && reading.if_read != records.recording.azimuth_from()) continue;
     if (reading.range == 1e-3 && !in_km) continue;
