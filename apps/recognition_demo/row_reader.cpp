@@ -20,10 +20,8 @@ RowReader::RowReader(const LearnedModel& model, const CsvReader& reader, bool un
 
 Readings RowReader::readings(const CsvRow& row) {
   Readings result;
-  ++rows_;
   for (std::size_t i = 0; i < columns_.size(); ++i) {
     result.push_back(reading(row, i));
-    columns_[i].filled += result.back() == missing ? 0U : 1U;
   }
   return result;
 }
@@ -59,8 +57,6 @@ bool RowReader::say_otherwise(Result& result) const {
           "unit",
           in_quotes(feature.name), 100.0 * share(column.binned), all, feature.bins->labels()[bin],
           100.0 * share(learned));
-    if (column.filled == 0 && rows_ > 1)
-      result.say("\nColumn {} has no value in any of {} rows", in_quotes(feature.name), rows_);
   }
   return in_another_unit;
 }

@@ -28,7 +28,7 @@ class RowReader {
 
  private:
   struct Column {
-    std::size_t index, filled = 0;
+    std::size_t index;
     std::vector<double> binned;  // numbers by bin
   };
 
@@ -42,7 +42,6 @@ class RowReader {
   std::optional<std::size_t> label_;
   std::vector<std::string> classes_;
   std::vector<Column> columns_;
-  std::size_t rows_ = 0;
   std::size_t unseen_cells_ = 0;
   std::string first_unseen_;
 };

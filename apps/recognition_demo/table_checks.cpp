@@ -21,36 +21,22 @@ std::size_t rows_with(const DataColumn& column, std::size_t value) {
   return static_cast<std::size_t>(std::ranges::count(column.codes, static_cast<Code>(value)));
 }
 
-/// Whether numbers rise from row to row, as whole numbers or by even steps; or are so many whole numbers, each once,
-/// along which the class changes as often as by chance.
-bool count_rows(const std::vector<double>& numbers, const DataTable& table) {
-  if (std::ranges::any_of(numbers, [](double number) { return std::isnan(number); })) return false;
+/// Whether numbers rise from row to row, as whole numbers or by even steps.
+bool count_rows(const std::vector<double>& numbers) {
   const bool whole = std::ranges::all_of(numbers, [](double number) { return number == std::floor(number); });
   const double step = numbers[1] - numbers[0];
-  bool rise = true;
-  for (std::size_t row = 1; row < numbers.size() && rise; ++row) {
-    const double by = numbers[row] - numbers[row - 1];
-    rise = by > 0.0 && (whole || std::abs(by - step) <= 1e-6 * step);
+  for (std::size_t row = 1; row < numbers.size(); ++row) {
+    const double by = numbers[row] - numbers[row - 1];  // NaN where a number is missing
+    if (!(by > 0.0 && (whole || std::abs(by - step) <= 1e-6 * step))) return false;
   }
-  const auto [low, high] = std::ranges::minmax(numbers);
-  const auto n = static_cast<double>(numbers.size());
-  if (rise || !whole || high - low + 1.0 != n) return rise;
-  const std::size_t nobody = table.classes.size();
-  std::vector<std::size_t> in_order(numbers.size(), nobody);
-  for (std::size_t row = 0; row < numbers.size(); ++row)
-    in_order[static_cast<std::size_t>(numbers[row] - low)] = table.labels[row];
-  double changes = 0.0, other = 1.0;  // of the class, and how often two rows are of different ones
-  for (std::size_t k = 1; k < in_order.size(); ++k) changes += in_order[k] != in_order[k - 1] ? 1.0 : 0.0;
-  for (const std::size_t rows : table.rows_of_class) other -= std::pow(static_cast<double>(rows) / n, 2);
-  const bool each_once = std::ranges::find(in_order, nobody) == in_order.end();
-  return each_once && changes >= n * other - 2.5 * std::sqrt(n * other * (1.0 - other));
+  return true;
 }
 
 /// A column that names the rows, or counts them.
 std::string names_rows(const DataTable& table, const DataColumn& column) {
   if (table.size() < few_rows) return "";
   if (column.numeric)
-    return !count_rows(column.numbers, table)
+    return !count_rows(column.numbers)
                ? ""
                : of_column(column.name, " counts the rows; leave it out by --ignore {}", typed(column.name));
   const std::size_t cells = table.size() - rows_with(column, missing_code), words = column.values.size();
@@ -143,42 +129,32 @@ std::string sentinels(const DataTable& table, const DataColumn& column) {
                    in_quotes(*unknown), typed(*unknown));
 }
 
-/// Whether it is a number but for what parts thousands, or a decimal comma.
-bool is_written_number(std::string_view word) {
-  std::string bare(word);
+/// What stands behind a number, as in "23.93 kg", or before it, as in "$12.50" and "EUR 5"; nothing of other words, and
+/// of names, as A5.
+std::optional<std::string_view> unit_of(std::string_view word) {
+  constexpr std::string_view digits = "0123456789";
+  const auto begin = std::min(word.find_first_of("+-.0123456789"), word.size());
+  const auto end = std::min(word.find_first_not_of("+-., '0123456789", begin), word.size());
+  const std::string_view before = word.substr(0, begin), after = word.substr(end);
+  std::string bare(trimmed(word.substr(begin, end - begin)));
   std::erase_if(bare, [](char c) { return c == ',' || c == ' ' || c == '\''; });
-  return parse_number(bare).has_value();
-}
-
-/// What stands behind a number, as in "23.93 kg", or before it, as in "$12.50", "<0.1" and "EUR 5"; not in names, as
-/// A5.
-std::string_view unit_of(std::string_view word) {
-  constexpr std::string_view of_numbers = "+-.,0123456789";
-  const auto begin = std::min(word.find_first_of(of_numbers), word.size());
-  const auto end = std::min(word.find_first_not_of(of_numbers, begin), word.size());
-  const std::string_view before = word.substr(0, begin), after = trimmed(word.substr(end));
-  const bool letters = std::ranges::any_of(before, [](unsigned char letter) { return std::isalpha(letter) != 0; });
-  if ((letters && !before.ends_with(' ')) || before.empty() == after.empty()) return "";
-  if (after.find_first_of("0123456789") != after.npos || !is_written_number(word.substr(begin, end - begin))) return "";
+  const bool is_name = begin > 0 && std::isalpha(static_cast<unsigned char>(word[begin - 1])) != 0;
+  if (is_name || !parse_number(bare) || after.find_first_of(digits) != after.npos) return std::nullopt;
   return before.empty() ? after : before;
 }
 
 /// Numbers that count as words, for how they are written or for a word among them.
 std::string written_numbers(const DataColumn& column) {
   constexpr std::size_t few = 8, few_words = 4;
-  std::size_t numbers = 0;
   std::set<std::string_view> units;
   std::string example;
   std::vector<std::string> others;
-  for (const std::string& word : column.values) {
-    const std::string_view unit = unit_of(word);
-    if (unit.empty() && !is_written_number(word)) {
+  for (const std::string& word : column.values)
+    if (const auto unit = unit_of(word); !unit)
       others.push_back(typed(word));
-      continue;
-    }
-    ++numbers, units.insert(unit);
-    if (!parse_number(word) && example.empty()) example = word;
-  }
+    else if (units.insert(*unit); !parse_number(word) && example.empty())
+      example = word;
+  const std::size_t numbers = column.values.size() - others.size();
   if (numbers <= few || others.size() >= numbers || units.size() > few_words) return "";
   if (!example.empty())
     return of_column(column.name, " holds numbers as words, as {}; write plain numbers, all in one unit",

@@ -48,11 +48,6 @@ inline constexpr Unit azimuths[] = {{"deg", 1.0, "°"},
                                     {"deg_north", 1.0, "°", true},
                                     {"rad_north", 1.0 / degree, "rad", true}};
 inline constexpr Unit bearings[] = {{"deg", 1.0, "°", true}, {"rad", 1.0 / degree, "rad", true}};
-/// That are not read.
-inline constexpr Unit foreign[] = {{"gon", 0.9, "gon"},
-                                   {"mrad", 1e-3 / degree, "mrad"},
-                                   {"arcmin", 1.0 / 60.0, "minutes"},
-                                   {"arcsec", 1.0 / 3600.0, "seconds of arc"}};
 
 }  // namespace units
 

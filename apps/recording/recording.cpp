@@ -248,13 +248,10 @@ bool RecordingReader::next(Row& row) {
   row.truth = position(Role::truth);
   row.rates = rates();
   const double time = row.plot.time;
-  const auto plot = measured();
-  const auto counts = [&](Role role) { return says(role) && !says(role, beyond_sense); };
-  row.sensor_at = counts(Role::sensor_position) ? position(Role::sensor_position) : std::nullopt;
-  row.sensor_place = counts(Role::sensor_place) ? std::optional(place(Role::sensor_place)) : std::nullopt;
-  if (!plot) senseless_.add(row.line);
+  row.sensor_at = position(Role::sensor_position);
+  row.sensor_place = says(Role::sensor_place) ? std::optional(place(Role::sensor_place)) : std::nullopt;
   ++rows_;
-  row.plot = plot.value_or(AnyPlot{});
+  row.plot = measured();
   row.plot.time = time;
   return true;
 }
@@ -377,8 +374,10 @@ void RecordingReader::take_numbers() {
     const Role role = quantities[q].role;
     if (says_none(q) && (role != Role::place || no_place)) ++missing_cells_[columns_[q]->index];
     if (role == Role::place ? no_place : says_none(q)) said_[q].reset();
-    const bool of_velocity = role == Role::velocity || q == place_of(Role::course);
-    if (said_[q] && of_velocity && std::abs(*said_[q]) >= beyond_sense) said_[q].reset();
+    if (said_[q] && std::abs(*said_[q]) >= beyond_sense) {
+      ++missing_cells_[columns_[q]->index];
+      std::fill_n(said_.begin() + place_of(role), size_of(role), std::nullopt);
+    }
     if (said_[q]) *said_[q] *= columns_[q]->unit->value;
     if (said_[q] && from_zenith_ && q == place_of(Role::polar) + 2) said_[q] = 90.0 - *said_[q];
     if (said_[q] && is_accuracy(role) && role != Role::covariance && !(*said_[q] > 0.0))
@@ -411,11 +410,10 @@ Position RecordingReader::rates() const {
   return rates;
 }
 
-/// Whether it has a number, of this size or more.
-bool RecordingReader::says(Role role, double least) const {
+/// Whether it has a number.
+bool RecordingReader::says(Role role) const {
   const auto first = said_.begin() + place_of(role);
-  return std::any_of(first, first + size_of(role),
-                     [=](const auto& number) { return number && std::abs(*number) >= least; });
+  return std::any_of(first, first + size_of(role), [](const auto& number) { return number.has_value(); });
 }
 
 InputError RecordingReader::error(Role role, std::size_t i, std::string_view expected, std::string_view remedy) const {
@@ -456,13 +454,10 @@ Geodetic RecordingReader::place(Role role) const {
   }
 }
 
-/// What the row measured; nothing if it has a number that stands for none.
-std::optional<AnyPlot> RecordingReader::measured() {
+/// What the row measured.
+AnyPlot RecordingReader::measured() {
   const bool is_located = says(where()), is_moving = says(Role::velocity) || says(Role::course);
   const bool is_seen = says(Role::polar) && (polar() || !is_located);
-  if (says(where(), beyond_sense)) return std::nullopt;
-  for (const Role role : {Role::polar, Role::sensor_position, Role::sensor_place})
-    if (is_seen && says(role, beyond_sense)) return std::nullopt;
   if (is_located && is_seen)
     throw error(Role::polar, 0, "an empty cell, since the row has a position", "give each sensor a row of its own");
   if (is_located && says(Role::polar)) ++unused_azimuths_;
@@ -572,7 +567,7 @@ std::string RecordingReader::taken() const {
     const Quantity& quantity = quantities[from_zenith_ && q == place_of(Role::polar) + 2 ? q + 2 : q];
     std::string part = fmt::format("{} in {}{}", header_of(q), columns_[q]->unit->words, quantity.note);
     for (const auto units : {std::span<const Unit>(units::lengths), std::span<const Unit>(units::speeds),
-                             std::span<const Unit>(units::angles), std::span<const Unit>(units::foreign)})
+                             std::span<const Unit>(units::angles)})
       for (const Unit& other : units)
         if (other.words != columns_[q]->unit->words && says_unit(header_of(q), other.suffix) &&
             quantity.role != Role::covariance)
@@ -664,9 +659,6 @@ std::vector<std::string> RecordingReader::notes() const {
        fmt::format("Velocities do not count in rows of a radar or with a bearing: {} rows", unused_velocities_)},
       {bearings_ > 0 && unused_azimuths_ > 0,
        fmt::format("Azimuths do not count in rows with a position: {} rows", unused_azimuths_)},
-      {senseless_.rows > 0, fmt::format("Rows with a number that no measurement can be, which count as missed: {}, the "
-                                        "first on line {}",
-                                        senseless_.rows, senseless_.first_line)},
       {midnights_.rows > 0, fmt::format("Times of day pass midnight {}, first on line {}; there the time falls by more "
                                         "than 12 h, and days are counted from the first",
                                         times, midnights_.first_line)}};

@@ -173,12 +173,12 @@ class RecordingReader {
   void take_numbers();
   Position rates() const;
   const std::optional<double>& said(Role role, std::size_t i = 0) const { return said_[place_of(role) + i]; }
-  bool says(Role role, double least = 0.0) const;
+  bool says(Role role) const;
   void require_whole(Role role, std::size_t size) const;
   Geodetic place(Role role) const;
   std::optional<Position> position(Role role) const;
   InputError error(Role role, std::size_t i, std::string_view expected, std::string_view remedy) const;
-  std::optional<AnyPlot> measured();
+  AnyPlot measured();
   AnyPlot radar_plot() const;
   AnyPlot components() const;
   std::vector<double> covariance(const std::vector<int>& places, std::vector<double> variances) const;
@@ -201,7 +201,6 @@ class RecordingReader {
   std::optional<Geodetic> origin_;
   std::map<std::string, Last, std::less<>> last_;  // by track
   std::size_t rows_ = 0, skipped_ = 0;
-  Counted senseless_;                                 // rows with a number that no measurement can be
   std::map<std::size_t, std::size_t> missing_cells_;  // by column
   Counted midnights_;                                 // that tracks passed
   std::size_t unused_velocities_ = 0;

@@ -201,8 +201,6 @@ Option& Option::repeated() {
 
 Option& Option::required() { return option_->required(), *this; }
 
-Option& Option::needs(const Option& other) { return option_->needs(other.option_), *this; }
-
 Option& Option::hidden() { return option_->group(""), *this; }
 
 bool Option::given() const { return option_->count() > 0; }

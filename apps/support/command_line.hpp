@@ -60,7 +60,6 @@ class Option {
   Option& list_alone();                   ///< and what follows after a blank is none of them
   Option& repeated();                     ///< it takes one value, and may be given again
   Option& required();
-  Option& needs(const Option& other);
   Option& hidden();  ///< from the help
 
   bool given() const;

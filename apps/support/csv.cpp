@@ -93,13 +93,13 @@ std::string listed(std::span<const std::string> names, std::size_t most) {
   return names.size() > most ? text + ", …" : text;
 }
 
-std::string typed(std::string_view word) {
-  const std::string field = csv_field(word);
-  const bool plain = field.find_first_of(" \"'#?*!$&|;<>()[]{}~`\\") == std::string::npos;
-  if (field.find('\'') == std::string::npos || field.find_first_of("$`\\!\"") != std::string::npos)
-    return plain ? field : "'" + field + "'";
-  return '"' + field + '"';
+std::string in_shell(std::string_view word) {
+  if (word.find_first_of(" \"'#?*!$&|;<>()[]{}~`\\") == word.npos) return std::string(word);
+  const bool takes_single = word.find('\'') == word.npos || word.find_first_of("$`\\!\"") != word.npos;
+  return fmt::format("{0}{1}{0}", takes_single ? '\'' : '"', word);
 }
+
+std::string typed(std::string_view word) { return in_shell(csv_field(word)); }
 
 std::string csv_field(std::string_view text) {
   const bool plain = text.find_first_of(",\"\r\n") == std::string_view::npos && trimmed(text).size() == text.size();
@@ -180,18 +180,13 @@ bool CsvReader::next(CsvRow& row) {
   const bool first = std::exchange(is_first_, false);
   if (row.size() == names().size()) return true;
   const bool may_name_rows = first && names().size() > 1 && row.size() == names().size() + 1;
-  const bool may_end = may_name_rows && row[names().size()].empty();
-  throw error(
-      row.line(),
-      {.found = fmt::format("{} fields", row.size()),
-       .expected = fmt::format("{} as in the header", names().size()),
-       .remedy = may_end         ? fmt::format("the line ends with one of the {}, and the header does not: "
-                                                       "add one there",
-                                               plural_of(separator_))
-                 : may_name_rows ? "if the first ones name the rows, give them a name in the header, "
-                                   "which R's write.table leaves out"
-                 : ended_        ? "the file ends within this line: see whether it is whole"
-                          : fmt::format("add or drop {0}; text with {0} stands in quotes", plural_of(separator_))});
+  throw error(row.line(), {.found = fmt::format("{} fields", row.size()),
+                           .expected = fmt::format("{} as in the header", names().size()),
+                           .remedy = may_name_rows ? "if the first ones name the rows, give them a name in the header, "
+                                                     "which R's write.table leaves out"
+                                     : ended_      ? "the file ends within this line: see whether it is whole"
+                                                   : fmt::format("add or drop {0}; text with {0} stands in quotes",
+                                                                 plural_of(separator_))});
 }
 
 bool CsvReader::read_record(CsvRow& row) {

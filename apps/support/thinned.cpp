@@ -6,9 +6,6 @@
 
 namespace sigmax::apps {
 
-Thinned::Thinned(std::size_t columns, std::size_t most)
-    : Thinned(columns, most, each_below(columns, std::identity{})) {}
-
 Thinned::Thinned(std::size_t columns, std::size_t most, std::vector<std::size_t> watched)
     : columns_(columns), most_(most), watched_(std::move(watched)) {
   if (watched_.empty() || most < 4 * watched_.size()) throw std::invalid_argument("rows cannot be thinned to so few");

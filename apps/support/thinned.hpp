@@ -9,13 +9,12 @@ namespace sigmax::apps {
 /// every stretch of rows the first one, and those with the least and the greatest number of each watched column, so
 /// that no peak is lost.
 ///
-///     Thinned rows(2, 1000);              // all columns are watched
+///     Thinned rows(2, 1000, {0, 1});      // both columns are watched
 ///     for (…) rows.add(time, {error, sigma});
 ///     rows.times(); rows.column(0);   // at most 1000 of each
 class Thinned {
  public:
   /// Throws std::invalid_argument unless there is a column, and room for the extremes of one stretch.
-  Thinned(std::size_t columns, std::size_t most);
   Thinned(std::size_t columns, std::size_t most, std::vector<std::size_t> watched);
 
   /// Takes a row; NaN is a number that is not known. Throws std::invalid_argument for another number of columns.
@@ -26,7 +25,6 @@ class Thinned {
 
   std::size_t taken() const { return taken_; }
   std::size_t kept() const { return kept_; }
-  bool thinned() const { return kept_ < taken_; }
 
   std::vector<double> times() const;
   std::vector<double> column(std::size_t i) const;

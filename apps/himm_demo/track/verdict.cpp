@@ -5,14 +5,6 @@
 namespace sigmax::apps {
 namespace {
 
-/// A word as a shell reads it.
-std::string in_shell(const std::string& word) {
-  if (word.find_first_of(" \"'#?*!$&|;<>()[]{}~`\\") == std::string::npos) return word;
-  std::string text;
-  for (const char letter : word) text += letter == '\'' ? "'\\''" : std::string(1, letter);
-  return "'" + text + "'";
-}
-
 std::string joined(const std::optional<std::array<double, 3>>& numbers) {
   return numbers ? fmt::format("{}", fmt::join(each(*numbers, shortest), ",")) : "";
 }
