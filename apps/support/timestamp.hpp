@@ -10,8 +10,9 @@ namespace sigmax::apps {
 /// hh:mm:ss with a fraction if any, as seconds since midnight.
 ///
 /// A date and time is YYYY-MM-DD, 'T' or a blank, hh:mm:ss, a fraction after '.' or ',' if any, and 'Z', ±hh:mm,
-/// ±hhmm or ±hh, after a blank if any, without which it is UTC; " UTC" may follow, as Go writes "+0000 UTC". As in POSIX time a leap second, ss = 60, is the first
-/// second of the next minute. Blanks around it are allowed and nothing else.
+/// ±hhmm or ±hh, after a blank if any, without which it is UTC; " UTC" may follow, as Go writes "+0000 UTC". As in
+/// POSIX time a leap second, ss = 60, is the first second of the next minute. Blanks around it are allowed and nothing
+/// else.
 std::optional<double> parse_timestamp(std::string_view text);
 
 /// The same of a text as `format` says by the directives of strptime, as %d/%m/%Y %H:%M:%S; a fraction of a second and
