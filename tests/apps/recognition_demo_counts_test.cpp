@@ -6,9 +6,9 @@ class RecognitionDemoCounts : public InDirectory {};
 
 TEST_F(RecognitionDemoCounts, AreLearnedAsPlainLoopsDo) {
   const std::string model = directory.path() / "model.json";
-  const auto ending = recognition_demo_succeeds({"train", directory.write("counts.csv", counts_csv()), "--label",
-                                                 "class", "--counts", "--smoothing", "0", "--equal-prior", "--model",
-                                                 model});
+  const auto ending =
+      recognition_demo_succeeds({"train", directory.write("counts.csv", counts_csv()), "--label", "class", "--counts",
+                                 "--smoothing", "0", "--equal-prior", "--model", model});
   EXPECT_TRUE(says(ending.output, {"slow, 100 counted", "every class equally plausible before"}));
   const auto data = directory.write("reports.csv",
                                     "altitude_layer_ft_agl,airspeed_kt,vertical_rate_ft_per_min,turn_rate_deg_per_s\n"

@@ -42,10 +42,9 @@ void expect_shown(const std::string& page, std::size_t commands) {
     if (command.find("--runs") != std::string::npos) continue;  // minutes without optimisation
 #endif
     // The program by its name, as a reader runs it.
-    const auto ending =
-        program::run("/bin/sh", {"-c", "cd " + program::quoted(directory.path()) + " && recognition_demo() { " +
-                                           program::quoted(program::chosen(SIGMAX_RECOGNITION_DEMO)) +
-                                           " \"$@\"; } && " + command});
+    const auto ending = program::run(
+        "/bin/sh", {"-c", "cd " + program::quoted(directory.path()) + " && recognition_demo() { " +
+                              program::quoted(program::chosen(SIGMAX_RECOGNITION_DEMO)) + " \"$@\"; } && " + command});
     EXPECT_EQ(ending.status, 0) << command;
     EXPECT_EQ(ending.output, output) << command;
   }
