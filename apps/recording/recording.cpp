@@ -383,6 +383,11 @@ void RecordingReader::take_numbers() {
     if (said_[q] && is_accuracy(role) && role != Role::covariance && !(*said_[q] > 0.0))
       throw row_.error(columns_[q]->index, "a positive standard deviation", "leave the cell empty where it is unknown");
   }
+  // A coordinate whose accuracy --missing names was not measured.
+  for (std::size_t i = 0; i < 3; ++i)
+    for (const std::size_t q :
+         {place_of(Role::sigma_position) + i, place_of(Role::covariance) + covariances(i + 1) - 1})
+      if (columns_[q] && !said_[q] && !trimmed(row_[columns_[q]->index]).empty()) said_[place_of(where()) + i].reset();
 }
 
 std::optional<double> RecordingReader::written(std::size_t quantity) const {
@@ -460,12 +465,9 @@ AnyPlot RecordingReader::measured() {
   const bool is_seen = says(Role::polar) && (polar() || !is_located);
   if (is_located && is_seen)
     throw error(Role::polar, 0, "an empty cell, since the row has a position", "give each sensor a row of its own");
-  if (is_located && says(Role::polar)) ++unused_azimuths_;
   if (!is_seen) return components();
   if (is_moving) ++unused_velocities_;
-  const AnyPlot plot = radar_plot();
-  if (plot.sensor == AnyPlot::Sensor::bearing) ++bearings_;
-  return plot;
+  return radar_plot();
 }
 
 AnyPlot RecordingReader::radar_plot() const {
@@ -657,8 +659,6 @@ std::vector<std::string> RecordingReader::notes() const {
       {!missing.empty(), "Cells that say that there is no number: " + missing},
       {unused_velocities_ > 0,
        fmt::format("Velocities do not count in rows of a radar or with a bearing: {} rows", unused_velocities_)},
-      {bearings_ > 0 && unused_azimuths_ > 0,
-       fmt::format("Azimuths do not count in rows with a position: {} rows", unused_azimuths_)},
       {midnights_.rows > 0, fmt::format("Times of day pass midnight {}, first on line {}; there the time falls by more "
                                         "than 12 h, and days are counted from the first",
                                         times, midnights_.first_line)}};

@@ -204,8 +204,6 @@ class RecordingReader {
   std::map<std::size_t, std::size_t> missing_cells_;  // by column
   Counted midnights_;                                 // that tracks passed
   std::size_t unused_velocities_ = 0;
-  std::size_t bearings_ = 0;             // that count
-  std::size_t unused_azimuths_ = 0;      // beside a position
   std::optional<double> latest_of_day_;  // the time of the last row with a time of day, since the first midnight
 };
 
