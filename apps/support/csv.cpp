@@ -31,8 +31,9 @@ Counts take_line(std::string_view& text, std::string_view& line) {
   for (; end < text.size() && (quoted || (text[end] != '\n' && text[end] != '\r')); ++end) {
     const auto which = separators.find(text[end]);
     if (which != separators.npos && !quoted) ++counts[which];
-    quoted = text[end] == '"' ? at_start && !quoted : quoted;
-    at_start = which != separators.npos || (at_start && text[end] == ' ');
+    const bool quote = text[end] == '"', closes = quoted && quote;  // a second quote opens it again
+    quoted = quote ? at_start && !quoted : quoted;
+    at_start = closes || which != separators.npos || (at_start && text[end] == ' ');
   }
   line = text.substr(0, end);
   text.remove_prefix(std::min(end + 1, text.size()));

@@ -61,6 +61,7 @@ TEST(Csv, TheSeparatorIsThatOfTheHeaderOutsideQuotes) {
   EXPECT_EQ(records("a;\"b,c\";d\n1,5;2;x"), (Records{{"a", "b,c", "d"}, {"1,5", "2", "x"}}));
   EXPECT_EQ(records("a;b\tc\n1;2\t3"), (Records{{"a;b", "c"}, {"1;2", "3"}}));
   EXPECT_EQ(records("sep=;\na;b\n1;2"), (Records{{"a", "b"}, {"1", "2"}}));
+  EXPECT_EQ(records("\"3\"\";\",A\n1,2"), (Records{{"3\";", "A"}, {"1", "2"}}));
   EXPECT_EQ(records("\"sep=\",\n1,2"), (Records{{"sep=", ""}, {"1", "2"}}));
 }
 
