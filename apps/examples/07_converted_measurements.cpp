@@ -9,7 +9,7 @@
 #include <sigmax/estimation/metrics.hpp>
 #include <sigmax/estimation/radar.hpp>
 
-#include "support/random.hpp"
+#include "shell/random.hpp"
 
 using namespace sigmax;
 

@@ -3,7 +3,7 @@
 #include <sigmax/estimation/grid_filter.hpp>
 
 #include "runs.hpp"
-#include "support/random.hpp"
+#include "shell/random.hpp"
 
 using namespace sigmax;
 using examples::Study;

@@ -8,7 +8,7 @@
 #include <sigmax/recognition/dominance.hpp>
 
 #include "contest.hpp"
-#include "support/random.hpp"
+#include "shell/random.hpp"
 
 using namespace sigmax;
 using Points = std::vector<TimedMeasurement<1>>;

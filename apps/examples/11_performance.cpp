@@ -5,7 +5,7 @@
 #include <sigmax/recognition/triangle.hpp>
 
 #include "contest.hpp"
-#include "support/random.hpp"
+#include "shell/random.hpp"
 
 using namespace sigmax;
 

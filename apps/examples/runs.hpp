@@ -5,8 +5,8 @@
 #include <iomanip>
 #include <iostream>
 
-#include "result/report.hpp"
-#include "support/output.hpp"
+#include "report/report.hpp"
+#include "shell/output.hpp"
 
 namespace examples {
 

@@ -1,7 +1,7 @@
 #include <sstream>
 
 #include "himm_demo/subcommands.hpp"
-#include "result/result.hpp"
+#include "report/result.hpp"
 #include "study/journal.hpp"
 #include "study/study.hpp"
 #include "version.hpp"

@@ -7,7 +7,7 @@
 
 #include "himm_demo/experiment/experiment.hpp"
 #include "himm_demo/experiment/sentences.hpp"
-#include "result/result.hpp"
+#include "report/result.hpp"
 #include "study/study.hpp"
 
 namespace sigmax::apps {

@@ -1,7 +1,7 @@
 #include "himm_demo/subcommands.hpp"
 
 #include "himm_demo/experiment/experiment.hpp"
-#include "result/result.hpp"
+#include "report/result.hpp"
 #include "study/statistic.hpp"
 #include "study/study.hpp"
 #include "version.hpp"

@@ -5,7 +5,7 @@
 
 #include "recognition_demo/row_reader.hpp"
 #include "recognition_demo/subcommands.hpp"
-#include "support/progress.hpp"
+#include "shell/progress.hpp"
 
 namespace sigmax::apps {
 namespace {

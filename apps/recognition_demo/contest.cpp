@@ -4,7 +4,7 @@
 #include <sigmax/recognition/decision.hpp>
 #include <sigmax/recognition/dominance.hpp>
 
-#include "support/csv.hpp"
+#include "table/csv.hpp"
 
 namespace sigmax::apps {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <sigmax/recognition/classifier.hpp>
 
-#include "result/result.hpp"
+#include "report/result.hpp"
 
 namespace sigmax::apps {
 

@@ -1,7 +1,7 @@
 #include "recognition_demo/cross_validation.hpp"
 
-#include "support/parallel.hpp"
-#include "support/progress.hpp"
+#include "shell/parallel.hpp"
+#include "shell/progress.hpp"
 
 namespace sigmax::apps {
 namespace {

@@ -5,8 +5,8 @@
 #include <set>
 #include <tuple>
 
-#include "support/progress.hpp"
-#include "support/text.hpp"
+#include "shell/progress.hpp"
+#include "shell/text.hpp"
 
 namespace sigmax::apps {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "support/csv.hpp"
-#include "support/numbers.hpp"
+#include "shell/numbers.hpp"
+#include "table/csv.hpp"
 
 namespace sigmax::apps {
 

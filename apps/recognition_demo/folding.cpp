@@ -6,7 +6,7 @@
 #include <sigmax/recognition/decision.hpp>
 #include <sigmax/recognition/folds.hpp>
 
-#include "support/parallel.hpp"
+#include "shell/parallel.hpp"
 
 namespace sigmax::apps {
 

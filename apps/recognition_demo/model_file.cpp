@@ -1,7 +1,7 @@
 
 #include "recognition_demo/learned_model.hpp"
-#include "support/input.hpp"
-#include "support/json.hpp"
+#include "shell/input.hpp"
+#include "shell/json.hpp"
 
 namespace sigmax::apps {
 namespace {

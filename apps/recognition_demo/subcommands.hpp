@@ -1,6 +1,6 @@
 #pragma once
 
-#include "support/command_line.hpp"
+#include "shell/command_line.hpp"
 
 namespace sigmax::apps {
 

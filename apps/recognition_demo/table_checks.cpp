@@ -4,8 +4,8 @@
 #include <map>
 #include <set>
 
-#include "support/command_line.hpp"
-#include "support/text.hpp"
+#include "shell/command_line.hpp"
+#include "shell/text.hpp"
 
 namespace sigmax::apps {
 namespace {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "recognition_demo/contest.hpp"
-#include "support/random.hpp"
+#include "shell/random.hpp"
 
 namespace sigmax::apps {
 

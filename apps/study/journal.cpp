@@ -8,10 +8,10 @@
 #include <cerrno>
 #include <charconv>
 
-#include "support/command_line.hpp"
-#include "support/input.hpp"
-#include "support/output.hpp"
-#include "support/text.hpp"
+#include "shell/command_line.hpp"
+#include "shell/input.hpp"
+#include "shell/output.hpp"
+#include "shell/text.hpp"
 
 namespace sigmax::apps {
 namespace {

@@ -3,8 +3,8 @@
 #include <csignal>
 #include <cstdlib>
 
-#include "support/command_line.hpp"
-#include "support/error.hpp"
+#include "shell/command_line.hpp"
+#include "shell/error.hpp"
 
 #ifdef SIGMAX_MPI
 #include <mpi.h>

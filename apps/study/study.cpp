@@ -2,10 +2,10 @@
 
 #include <charconv>
 
-#include "result/result.hpp"
+#include "report/result.hpp"
+#include "shell/parallel.hpp"
+#include "shell/progress.hpp"
 #include "study/ranks.hpp"
-#include "support/parallel.hpp"
-#include "support/progress.hpp"
 
 namespace sigmax::apps {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <cstddef>
 
-#include "support/command_line.hpp"
+#include "shell/command_line.hpp"
 
 namespace sigmax::apps {
 

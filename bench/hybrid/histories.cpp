@@ -34,8 +34,8 @@
 #include <sigmax/hybrid/interacting_multiple_model.hpp>
 
 #include "himm_demo/experiment/scenario.hpp"
-#include "support/parallel.hpp"
-#include "support/random.hpp"
+#include "shell/parallel.hpp"
+#include "shell/random.hpp"
 
 namespace {
 

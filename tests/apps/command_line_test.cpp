@@ -1,6 +1,6 @@
-#include "support/command_line.hpp"
+#include "shell/command_line.hpp"
 
-#include "result/result.hpp"
+#include "report/result.hpp"
 #include "support/test.hpp"
 
 namespace command_line_test {

@@ -1,4 +1,4 @@
-#include "support/csv.hpp"
+#include "table/csv.hpp"
 
 #include <streambuf>
 

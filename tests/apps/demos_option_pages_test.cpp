@@ -1,8 +1,8 @@
 #include <regex>
 
 #include "apps/temporary_directory.hpp"
+#include "shell/text.hpp"
 #include "support/program.hpp"
-#include "support/text.hpp"
 
 namespace demos_option_pages_test {
 

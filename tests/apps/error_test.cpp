@@ -1,4 +1,4 @@
-#include "support/error.hpp"
+#include "shell/error.hpp"
 #include "support/test.hpp"
 
 namespace error_test {

@@ -1,4 +1,4 @@
-#include "support/geodesy.hpp"
+#include "table/geodesy.hpp"
 #include "support/test.hpp"
 
 namespace geodesy_test {

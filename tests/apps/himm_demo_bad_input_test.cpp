@@ -3,7 +3,7 @@
 #include <sys/stat.h>
 
 #include "apps/refusals.hpp"
-#include "result/report.hpp"
+#include "report/report.hpp"
 
 namespace himm_demo_bad_input_test {
 

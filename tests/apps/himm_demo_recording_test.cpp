@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/recordings.hpp"
-#include "support/geodesy.hpp"
+#include "table/geodesy.hpp"
 
 namespace himm_demo_recording_test {
 

@@ -1,4 +1,4 @@
-#include "result/report.hpp"
+#include "report/report.hpp"
 
 #include "apps/report_pages.hpp"
 

@@ -1,5 +1,5 @@
+#include "shell/text.hpp"
 #include "support/program.hpp"
-#include "support/text.hpp"
 
 namespace himm_demo_terminal_test {
 

@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/recordings.hpp"
-#include "support/text.hpp"
+#include "shell/text.hpp"
 
 namespace himm_demo_tune_test {
 

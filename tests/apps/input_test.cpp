@@ -1,7 +1,7 @@
-#include "support/input.hpp"
+#include "shell/input.hpp"
 
 #include "apps/temporary_directory.hpp"
-#include "support/error.hpp"
+#include "shell/error.hpp"
 
 namespace input_test {
 

@@ -1,7 +1,7 @@
 #include "study/journal.hpp"
 
 #include "apps/temporary_directory.hpp"
-#include "result/result.hpp"
+#include "report/result.hpp"
 #include "study/study.hpp"
 
 namespace journal_test {

@@ -1,9 +1,9 @@
-#include "support/output.hpp"
+#include "shell/output.hpp"
 
 #include <sys/stat.h>
 
 #include "apps/temporary_directory.hpp"
-#include "support/error.hpp"
+#include "shell/error.hpp"
 
 namespace output_test {
 

@@ -1,4 +1,4 @@
-#include "support/parallel.hpp"
+#include "shell/parallel.hpp"
 #include "support/test.hpp"
 
 namespace parallel_test {

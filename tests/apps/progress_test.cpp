@@ -1,7 +1,7 @@
-#include "support/progress.hpp"
+#include "shell/progress.hpp"
 
 #include "apps/terminal.hpp"
-#include "support/text.hpp"
+#include "shell/text.hpp"
 
 namespace progress_test {
 

@@ -1,4 +1,4 @@
-#include "support/random.hpp"
+#include "shell/random.hpp"
 #include "support/test.hpp"
 
 #include <Random123/philox.h>

@@ -1,7 +1,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/recognition_demo_support.hpp"
-#include "support/text.hpp"
+#include "shell/text.hpp"
 
 namespace recognition_demo_esm_test {
 

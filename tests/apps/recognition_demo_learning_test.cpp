@@ -2,7 +2,7 @@
 #include <regex>
 
 #include "apps/recognition_demo_support.hpp"
-#include "support/text.hpp"
+#include "shell/text.hpp"
 
 namespace recognition_demo_learning_test {
 

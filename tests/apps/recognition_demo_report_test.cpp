@@ -1,6 +1,6 @@
 #include "apps/recognition_demo_support.hpp"
 #include "apps/report_pages.hpp"
-#include "result/report.hpp"
+#include "report/report.hpp"
 
 namespace recognition_demo_report_test {
 

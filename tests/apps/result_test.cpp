@@ -1,4 +1,4 @@
-#include "result/result.hpp"
+#include "report/result.hpp"
 
 #include <nlohmann/json.hpp>
 

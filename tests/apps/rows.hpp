@@ -1,7 +1,7 @@
 #pragma once
 
 #include "apps/temporary_directory.hpp"
-#include "support/csv.hpp"
+#include "table/csv.hpp"
 
 namespace sigmax::apps {
 

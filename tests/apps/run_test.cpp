@@ -2,7 +2,7 @@
 
 #include "apps/temporary_directory.hpp"
 #include "apps/terminal.hpp"
-#include "result/result.hpp"
+#include "report/result.hpp"
 #include "study/study.hpp"
 
 namespace run_test {

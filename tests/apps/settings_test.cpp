@@ -1,4 +1,4 @@
-#include "support/settings.hpp"
+#include "shell/settings.hpp"
 
 #include "apps/temporary_directory.hpp"
 

@@ -1,7 +1,7 @@
 #include "study/study.hpp"
 
 #include "apps/temporary_directory.hpp"
-#include "result/result.hpp"
+#include "report/result.hpp"
 
 namespace study_test {
 

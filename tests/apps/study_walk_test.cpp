@@ -1,9 +1,9 @@
 // The code of docs/extending.md that makes a study, and what it writes.
 
 #include "apps/temporary_directory.hpp"
-#include "result/result.hpp"
+#include "report/result.hpp"
+#include "shell/random.hpp"
 #include "study/study.hpp"
-#include "support/random.hpp"
 
 namespace study_walk_test {
 

@@ -1,4 +1,4 @@
-#include "result/table.hpp"
+#include "report/table.hpp"
 #include "support/test.hpp"
 
 #include <nlohmann/json.hpp>

@@ -1,5 +1,5 @@
-#include "support/text.hpp"
-#include "support/random.hpp"
+#include "shell/text.hpp"
+#include "shell/random.hpp"
 #include "support/test.hpp"
 
 namespace text_test {

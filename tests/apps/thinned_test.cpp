@@ -1,4 +1,4 @@
-#include "support/thinned.hpp"
+#include "report/thinned.hpp"
 #include "support/test.hpp"
 
 namespace thinned_test {

@@ -1,4 +1,4 @@
-#include "support/timestamp.hpp"
+#include "table/timestamp.hpp"
 #include "support/test.hpp"
 
 #include <rapidcheck/gtest.h>

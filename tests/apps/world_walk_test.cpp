@@ -3,7 +3,7 @@
 
 #include "apps/temporary_directory.hpp"
 #include "recognition_demo/world.hpp"
-#include "support/csv.hpp"
+#include "table/csv.hpp"
 
 namespace world_walk_test {
 

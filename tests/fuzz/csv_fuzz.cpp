@@ -2,7 +2,7 @@
 // names the file.
 
 #include "fuzz/require.hpp"
-#include "support/csv.hpp"
+#include "table/csv.hpp"
 
 namespace {
 

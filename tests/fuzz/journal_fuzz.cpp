@@ -5,10 +5,10 @@
 #include <CLI/CLI.hpp>
 
 #include "fuzz/memory_file.hpp"
+#include "shell/error.hpp"
+#include "shell/input.hpp"
 #include "study/journal.hpp"
 #include "study/study.hpp"
-#include "support/error.hpp"
-#include "support/input.hpp"
 
 namespace {
 

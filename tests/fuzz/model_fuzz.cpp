@@ -3,7 +3,7 @@
 
 #include "fuzz/memory_file.hpp"
 #include "recognition_demo/learned_model.hpp"
-#include "support/input.hpp"
+#include "shell/input.hpp"
 
 namespace {
 

@@ -2,7 +2,7 @@
 // each.
 
 #include "fuzz/memory_file.hpp"
-#include "support/settings.hpp"
+#include "shell/settings.hpp"
 
 namespace {
 

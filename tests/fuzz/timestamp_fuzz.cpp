@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "fuzz/require.hpp"
-#include "support/timestamp.hpp"
+#include "table/timestamp.hpp"
 
 namespace {
 

@@ -2,7 +2,7 @@
 
 #include <cassert>
 
-#include "recording/plots.hpp"
+#include "records/plots.hpp"
 
 namespace sigmax::apps {
 

@@ -4,7 +4,7 @@
 
 #include <sigmax/estimation/radar.hpp>
 
-#include "support/random.hpp"
+#include "shell/random.hpp"
 
 namespace sigmax::apps {
 

@@ -3,7 +3,7 @@
 #include <sstream>
 
 #include "himm_demo/experiment/scenario.hpp"
-#include "support/text.hpp"
+#include "shell/text.hpp"
 
 namespace sigmax::apps {
 namespace {

@@ -1,8 +1,8 @@
 #include "himm_demo/filters/settings.hpp"
 
 #include "himm_demo/experiment/scenario.hpp"
-#include "recording/plots.hpp"
-#include "support/text.hpp"
+#include "records/plots.hpp"
+#include "shell/text.hpp"
 
 namespace sigmax::apps {
 namespace {

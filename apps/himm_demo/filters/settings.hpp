@@ -4,9 +4,9 @@
 
 #include <sigmax/hybrid/any_target.hpp>
 
-#include "recording/recording.hpp"
-#include "support/command_line.hpp"
-#include "support/settings.hpp"
+#include "records/recording.hpp"
+#include "shell/command_line.hpp"
+#include "shell/settings.hpp"
 
 namespace sigmax::apps {
 

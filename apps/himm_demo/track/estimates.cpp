@@ -1,6 +1,6 @@
 #include "himm_demo/track/estimates.hpp"
 
-#include "support/timestamp.hpp"
+#include "table/timestamp.hpp"
 
 namespace sigmax::apps {
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "himm_demo/filters/settings.hpp"
-#include "result/result.hpp"
+#include "report/result.hpp"
 
 namespace sigmax::apps {
 

@@ -4,7 +4,7 @@
 
 #include <sigmax/hybrid/any_target.hpp>
 
-#include "support/geodesy.hpp"
+#include "table/geodesy.hpp"
 
 namespace sigmax::apps {
 

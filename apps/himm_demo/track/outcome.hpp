@@ -6,7 +6,7 @@
 
 #include <set>
 
-#include "recording/recording.hpp"
+#include "records/recording.hpp"
 
 namespace sigmax::apps {
 

@@ -3,9 +3,9 @@
 #include <deque>
 
 #include "himm_demo/filters/settings.hpp"
-#include "recording/plots.hpp"
-#include "result/result.hpp"
-#include "support/thinned.hpp"
+#include "records/plots.hpp"
+#include "report/result.hpp"
+#include "report/thinned.hpp"
 
 namespace sigmax::apps {
 

@@ -2,9 +2,9 @@
 #include "himm_demo/track/frames.hpp"
 #include "himm_demo/track/page.hpp"
 #include "himm_demo/track/track.hpp"
-#include "support/progress.hpp"
-#include "support/random.hpp"
-#include "support/timestamp.hpp"
+#include "shell/progress.hpp"
+#include "shell/random.hpp"
+#include "table/timestamp.hpp"
 
 namespace sigmax::apps {
 namespace {

@@ -1,8 +1,8 @@
 #include "himm_demo/subcommands.hpp"
 
+#include "checks/checks.hpp"
 #include "himm_demo/track/page.hpp"
 #include "himm_demo/track/track.hpp"
-#include "recording/checks/checks.hpp"
 
 namespace sigmax::apps {
 

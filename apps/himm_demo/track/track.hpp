@@ -2,8 +2,8 @@
 
 #include "himm_demo/filters/settings.hpp"
 #include "himm_demo/track/outcome.hpp"
-#include "recording/plots.hpp"
-#include "result/result.hpp"
+#include "records/plots.hpp"
+#include "report/result.hpp"
 
 namespace sigmax::apps {
 

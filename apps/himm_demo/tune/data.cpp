@@ -3,8 +3,8 @@
 #include <sigmax/estimation/dense.hpp>
 #include <sigmax/hybrid/fit_target.hpp>
 
-#include "recording/checks/checks.hpp"
-#include "support/random.hpp"
+#include "checks/checks.hpp"
+#include "shell/random.hpp"
 
 namespace sigmax::apps {
 namespace {

@@ -13,7 +13,7 @@
 #include <sigmax/hybrid/fit.hpp>
 #include <sigmax/hybrid/fit_target.hpp>
 
-#include "support/parallel.hpp"
+#include "shell/parallel.hpp"
 
 namespace sigmax::apps {
 

@@ -3,8 +3,8 @@
 #include <sigmax/estimation/consistency.hpp>
 
 #include "himm_demo/tune/tune.hpp"
-#include "support/json.hpp"
-#include "support/parallel.hpp"
+#include "shell/json.hpp"
+#include "shell/parallel.hpp"
 #include "version.hpp"
 
 namespace sigmax::apps {

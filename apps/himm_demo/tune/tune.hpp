@@ -3,9 +3,9 @@
 #include <sigmax/hybrid/cross_validation.hpp>
 
 #include "himm_demo/filters/settings.hpp"
-#include "recording/plots.hpp"
-#include "result/result.hpp"
-#include "support/progress.hpp"
+#include "records/plots.hpp"
+#include "report/result.hpp"
+#include "shell/progress.hpp"
 
 namespace sigmax::apps {
 

@@ -1,0 +1,151 @@
+#include "shell/text.hpp"
+
+#include <array>
+#include <charconv>
+#include <clocale>
+#include <cmath>
+#include <cwchar>
+#include <map>
+#include <memory>
+
+#include <utf8proc.h>
+
+namespace sigmax::apps {
+
+std::string_view trimmed(std::string_view text) {
+  constexpr std::string_view blanks = " \t";
+  const auto first = text.find_first_not_of(blanks);
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(blanks) - first + 1);
+}
+
+std::optional<double> parse_number(std::string_view text) {
+  text = trimmed(text);
+  // std::from_chars takes no '+', and after one it must not be offered a '-'.
+  if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
+  double value = 0.0;
+  const char* const end = text.data() + text.size();
+  const auto result = std::from_chars(text.data(), end, value);
+  if (result.ec != std::errc{} || result.ptr != end || !std::isfinite(value)) return std::nullopt;
+  return value;
+}
+
+std::string shortest(double value) {
+  std::array<char, 32> text{};
+  const auto result = std::to_chars(text.data(), text.data() + text.size(), value);
+  return {text.data(), result.ptr};
+}
+
+std::string toml_number(double value) {
+  std::string text = shortest(value);
+  if (std::abs(value) >= 0x1p53 && text.find_first_of(".en") == std::string::npos) text += ".0";
+  return text;
+}
+
+std::size_t display_width(std::string_view text) {
+  static const locale_t utf8 = ::newlocale(LC_CTYPE_MASK, "C.UTF-8", nullptr);
+  const locale_t before = ::uselocale(utf8);
+  std::size_t width = 0;
+  for (std::mbstate_t state{}; !text.empty();) {
+    wchar_t character = 0;
+    std::size_t size = std::mbrtowc(&character, text.data(), text.size(), &state);
+    const bool known = size > 0 && size <= text.size() && ::wcwidth(character) >= 0;
+    if (!known) {  // a byte that is no text
+      state = {};
+      size = 1;
+    }
+    width += known ? static_cast<std::size_t>(::wcwidth(character)) : 1;
+    text.remove_prefix(size);
+  }
+  ::uselocale(before);
+  return width;
+}
+
+std::size_t widest(const std::vector<std::string>& lines) {
+  std::size_t width = 0;
+  for (const std::string& line : lines) width = std::max(width, display_width(line));
+  return width;
+}
+
+std::vector<std::string> words_of(std::string_view line) {
+  std::vector<std::string> words;
+  bool joined = false;
+  while (!line.empty()) {
+    const auto blank = std::min(line.find(' '), line.size());
+    const std::string_view word = line.substr(0, blank);
+    line.remove_prefix(std::min(blank + 1, line.size()));
+    if (!words.empty() && (joined || word == "±" || word == "="))
+      words.back().append(" ").append(word);
+    else
+      words.emplace_back(word);
+    joined = word == "±" || word == "−" || word == "=";
+  }
+  return words;
+}
+
+std::vector<std::string> lines_of(std::string_view text, std::size_t width) {
+  std::vector<std::string> lines;
+  for (bool more = true; more;) {
+    const auto end = text.find('\n');
+    more = end != std::string_view::npos;
+    const std::string_view line = text.substr(0, end);
+    if (more) text.remove_prefix(end + 1);
+    if (width == any_width || display_width(line) <= width) {
+      lines.emplace_back(line);
+      continue;
+    }
+    const std::string indent(std::min(line.find_first_not_of(' '), line.size()), ' ');
+    std::string current;
+    for (const std::string& word : words_of(line.substr(indent.size()))) {
+      if (!current.empty() && display_width(current) + 1 + display_width(word) > width)
+        lines.push_back(std::exchange(current, {}));
+      current += (current.empty() ? indent : " ") + word;
+    }
+    lines.push_back(current);
+  }
+  return lines;
+}
+
+std::string wrapped(std::string_view text, std::size_t width) {
+  std::string result;
+  if (text.ends_with('\n')) text.remove_suffix(1);
+  for (const std::string& line : lines_of(printable(text, true), width)) result += line + "\n";
+  return result;
+}
+
+std::string lower_case(std::string_view text) {
+  std::string result(text);
+  for (char& letter : result)
+    if (letter >= 'A' && letter <= 'Z') letter = static_cast<char>(letter - 'A' + 'a');
+  return result;
+}
+
+/// Letters of any script in one case and Unicode form (NFKC), without what is not seen; of what is no UTF-8, lower
+/// case.
+static std::string folded_case(std::string_view text) {
+  constexpr auto form = static_cast<utf8proc_option_t>(UTF8PROC_STABLE | UTF8PROC_COMPOSE | UTF8PROC_COMPAT |
+                                                       UTF8PROC_CASEFOLD | UTF8PROC_IGNORE);
+  utf8proc_uint8_t* found = nullptr;
+  const utf8proc_ssize_t size = utf8proc_map(reinterpret_cast<const utf8proc_uint8_t*>(text.data()),
+                                             static_cast<utf8proc_ssize_t>(text.size()), &found, form);
+  const std::unique_ptr<utf8proc_uint8_t, decltype(&std::free)> owner(found, &std::free);
+  return size < 0 ? lower_case(text) : std::string(found, found + size);
+}
+
+std::string alike(const std::vector<std::string_view>& words) {
+  const auto folded = [](std::string_view word) {
+    auto parts = words_of(folded_case(word));
+    std::erase(parts, "");
+    const auto key = fmt::format("{}", fmt::join(parts, " "));
+    constexpr std::size_t digits_of_a_double = 15;
+    const auto number = key.size() > digits_of_a_double ? std::nullopt : parse_number(key);
+    return number ? shortest(*number + 0.0) : key;
+  };
+  std::map<std::string, std::string_view> by_key;
+  for (const std::string_view word : words)
+    if (const auto [other, is_new] = by_key.emplace(folded(word), word); !is_new)
+      return fmt::format("{} and {}", in_quotes(other->second), in_quotes(word));
+  return "";
+}
+
+}  // namespace sigmax::apps

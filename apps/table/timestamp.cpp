@@ -1,0 +1,141 @@
+#include "table/timestamp.hpp"
+
+#include <chrono>
+#include <cmath>
+#include <cstdint>
+#include <ctime>
+
+#include "shell/text.hpp"
+
+namespace sigmax::apps {
+namespace {
+
+/// Takes text apart from the left, as a form says in which 0 stands for a digit, and T for itself or a blank; the
+/// numbers are those that its digits make one after another. Nothing is taken of a text that does not begin so.
+bool take(std::string_view& text, std::string_view form, std::initializer_list<int*> numbers = {}) {
+  const auto fits = [](char wanted, char found) {
+    if (wanted == '0') return found >= '0' && found <= '9';
+    return found == wanted || (wanted == 'T' && found == ' ');
+  };
+  if (text.size() < form.size() || !std::equal(form.begin(), form.end(), text.begin(), fits)) return false;
+  std::size_t at = 0;
+  for (int* const number : numbers)
+    for (at = form.find('0', at); at < form.size() && form[at] == '0'; ++at) *number = 10 * *number + (text[at] - '0');
+  text.remove_prefix(form.size());
+  return true;
+}
+
+struct TimeOfDay {
+  std::int64_t whole_s;
+  double fraction_s;
+};
+
+/// Takes a fraction of a second, if any; nothing of a point without digits.
+std::optional<double> take_fraction(std::string_view& text) {
+  if (!take(text, ".") && !take(text, ",")) return 0.0;
+  std::string fraction = "0.";
+  for (std::string_view left = text; take(text, "0"); left = text) fraction += left[0];
+  return fraction.size() == 2 ? std::nullopt : parse_number(fraction);
+}
+
+/// Takes hh:mm:ss, and a fraction if any.
+std::optional<TimeOfDay> take_time_of_day(std::string_view& text) {
+  int hour = 0, minute = 0, second = 0;
+  if (!take(text, "00:00:00", {&hour, &minute, &second})) return std::nullopt;
+  const auto fraction = take_fraction(text);
+  if (hour > 23 || minute > 59 || second > 60 || !fraction) return std::nullopt;
+  return TimeOfDay{(hour * 60 + minute) * 60 + second, *fraction};
+}
+
+std::optional<double> parse_time_of_day(std::string_view text) {
+  const auto time = take_time_of_day(text);
+  if (!time || !text.empty()) return std::nullopt;
+  return static_cast<double>(time->whole_s) + time->fraction_s;
+}
+
+/// Minutes ahead of UTC of "+hh:mm", "+hhmm" or "+hh"; none of "Z" or nothing. As Go writes them, "UTC" may follow.
+std::optional<int> offset_minutes(std::string_view zone) {
+  if (zone.ends_with(" UTC") || zone == "UTC") zone = trimmed(zone.substr(0, zone.size() - 3));
+  if (zone.empty() || zone == "Z") return 0;
+  const bool ahead = take(zone, "+");
+  if (!ahead && !take(zone, "-")) return std::nullopt;
+  int hours = 0, minutes = 0;
+  if (!take(zone, "00", {&hours})) return std::nullopt;
+  if (!take(zone, ":00", {&minutes})) take(zone, "00", {&minutes});
+  if (!zone.empty() || hours > 23 || minutes > 59) return std::nullopt;
+  return (ahead ? 1 : -1) * (60 * hours + minutes);
+}
+
+std::optional<double> parse_date_and_time(std::string_view text) {
+  using namespace std::chrono;
+  int y = 0, m = 0, d = 0;
+  if (!take(text, "0000-00-00T", {&y, &m, &d})) return std::nullopt;
+  const year_month_day date{year{y}, month{static_cast<unsigned>(m)}, day{static_cast<unsigned>(d)}};
+  const auto time = take_time_of_day(text);
+  const auto offset = offset_minutes(trimmed(text));
+  if (!date.ok() || !time || !offset) return std::nullopt;
+  const auto day_number = std::int64_t{sys_days{date}.time_since_epoch().count()};
+  return static_cast<double>(day_number * 86400 + time->whole_s - 60 * *offset) + time->fraction_s;
+}
+
+}  // namespace
+
+std::optional<double> parse_timestamp(std::string_view text) {
+  text = trimmed(text);
+  if (const auto seconds = parse_number(text)) return seconds;
+  if (const auto seconds = parse_time_of_day(text)) return seconds;
+  return parse_date_and_time(text);
+}
+
+std::optional<double> parse_timestamp(std::string_view text, const std::string& format, bool& of_day) {
+  const std::string cell(trimmed(text));
+  std::tm told{};
+  const char* const end = ::strptime(cell.c_str(), format.c_str(), &told);
+  if (end == nullptr) return std::nullopt;
+  std::string_view rest = end;
+  const auto fraction = take_fraction(rest);
+  const auto zone = offset_minutes(trimmed(rest));
+  of_day = told.tm_mday == 0;
+  if (of_day) {
+    told.tm_mday = 1;
+    told.tm_year = 70;
+  }
+  std::tm date = told;
+  const std::time_t seconds = ::timegm(&date);
+  if (!fraction || !zone || date.tm_mday != told.tm_mday) return std::nullopt;  // strptime takes the 31st of any month
+  return static_cast<double>(seconds - told.tm_gmtoff - 60 * *zone) + *fraction;
+}
+
+std::string_view doubt_of_format(std::string_view format) {
+  const bool names_zone = format.find("%Z") != format.npos, has_half = format.find("%p") != format.npos;
+  if (names_zone) return "names of zones are not read: add a column of UTC, or zones as +02:00, which %z reads";
+  return has_half && format.find("%I") == format.npos ? "%p goes with hours up to 12, %I" : "";
+}
+
+bool is_time_of_day(std::string_view text) { return parse_time_of_day(trimmed(text)).has_value(); }
+
+double midnight_before(double time) { return std::floor(time / day_s) * day_s; }
+
+double time_of_day_after(double before, double time_of_day) {
+  const double time = midnight_before(before) + time_of_day;
+  return before - time > day_s / 2.0 ? time + day_s : time;
+}
+
+std::string iso_time(double seconds) {
+  using namespace std::chrono;
+  if (!(seconds >= -62167219200.0 && seconds < 253402300800.0)) throw std::out_of_range("iso_time: no year 0 to 9999");
+  const microseconds total{std::llround(seconds * 1e6)};
+  const auto day = floor<days>(total);
+  const year_month_day date{sys_days{day}};
+  const hh_mm_ss time{total - day};
+  std::string text = fmt::format("{:04}-{:02}-{:02}T{:02}:{:02}:{:02}", static_cast<int>(date.year()),
+                                 static_cast<unsigned>(date.month()), static_cast<unsigned>(date.day()),
+                                 time.hours().count(), time.minutes().count(), time.seconds().count());
+  if (time.subseconds().count() != 0) {
+    text += fmt::format(".{:06}", time.subseconds().count());
+    text.erase(text.find_last_not_of('0') + 1);
+  }
+  return text + "Z";
+}
+
+}  // namespace sigmax::apps
