@@ -2,13 +2,17 @@
 # Components: dev (to link the library) and tools (the programs). Nothing installed holds an absolute path.
 include(CMakePackageConfigHelpers)
 
-sigmax_install(sigmax_all)
+sigmax_install(sigmax_all sigmax)
 set(SIGMAX_WITH_HIGHWAY FALSE)  # whether users of the static library have to link Highway
 if(TARGET hwy::hwy)
   set(SIGMAX_WITH_HIGHWAY TRUE)
 endif()
 set(package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/sigmax")
 install(EXPORT sigmax NAMESPACE sigmax:: FILE sigmax-targets.cmake DESTINATION "${package_dir}" COMPONENT dev)
+get_property(SIGMAX_PARTS GLOBAL PROPERTY sigmax_parts)
+foreach(part IN LISTS SIGMAX_PARTS)
+  install(EXPORT sigmax-${part} NAMESPACE sigmax:: FILE sigmax-${part}-targets.cmake DESTINATION "${package_dir}" COMPONENT dev)
+endforeach()
 
 configure_package_config_file("${CMAKE_CURRENT_LIST_DIR}/sigmax-config.cmake.in" sigmax-config.cmake
                               INSTALL_DESTINATION "${package_dir}" NO_SET_AND_CHECK_MACRO)

@@ -19,10 +19,11 @@ function(sigmax_unity target files)
   endif()
 endfunction()
 
-# sigmax_room(NAME [SOURCES …] [DEPENDS …]): the library sigmax::NAME of one room, with its own include root. All
-# headers below it are the room's file set: they are installed, and each must compile alone (scripts/headers).
+# sigmax_room(NAME [PART] [SOURCES …] [DEPENDS …]): the library sigmax::NAME of one room, with its own include root. All
+# headers below it are the room's file set: they are installed, and each must compile alone (scripts/headers). A PART needs what
+# the others do without: its users name it as a component, and sigmax::sigmax leaves it out.
 function(sigmax_room name)
-  cmake_parse_arguments(ROOM "" "" "SOURCES;DEPENDS" ${ARGN})
+  cmake_parse_arguments(ROOM "PART" "" "SOURCES;DEPENDS" ${ARGN})
   set(target sigmax_${name})
   if(ROOM_SOURCES)
     add_library(${target} STATIC ${ROOM_SOURCES})
@@ -40,15 +41,22 @@ function(sigmax_room name)
   file(GLOB_RECURSE headers CONFIGURE_DEPENDS include/*.hpp)
   target_sources(${target} ${scope} FILE_SET HEADERS BASE_DIRS include FILES ${headers})
   target_link_libraries(${target} ${scope} ${ROOM_DEPENDS})
-  sigmax_install(${target})
+  if(ROOM_PART)
+    sigmax_install(${target} sigmax-${name})
+    set_property(GLOBAL APPEND PROPERTY sigmax_parts ${name})
+  else()
+    sigmax_install(${target} sigmax)
+  endif()
 endfunction()
 
-# sigmax_install(TARGET): puts a library into the CMake package; does nothing inside another project.
-function(sigmax_install target)
+# sigmax_install(TARGET EXPORT): puts a library into the CMake package; does nothing inside another project.
+function(sigmax_install target export)
   if(SIGMAX_INSTALL)
-    install(TARGETS ${target} EXPORT sigmax ARCHIVE COMPONENT dev FILE_SET HEADERS COMPONENT dev)
+    install(TARGETS ${target} EXPORT ${export} ARCHIVE COMPONENT dev FILE_SET HEADERS COMPONENT dev)
     add_dependencies(sigmax_installed ${target})
-    set_property(GLOBAL APPEND PROPERTY sigmax_installed_libraries ${target})
+    if(export STREQUAL sigmax)
+      set_property(GLOBAL APPEND PROPERTY sigmax_installed_libraries ${target})
+    endif()
   endif()
 endfunction()
 

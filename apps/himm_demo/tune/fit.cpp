@@ -3,53 +3,28 @@
 #include <cstdlib>
 #include <numeric>
 
-#ifdef SIGMAX_NLOPT
-#include <nlopt.hpp>
+#ifdef SIGMAX_TUNING
+#include <sigmax/tuning/search.hpp>
+#else
+#include <sigmax/hybrid/fit.hpp>
 #endif
 
 #include <boost/algorithm/string/split.hpp>
 
 #include <sigmax/estimation/chi_square.hpp>
-#include <sigmax/hybrid/fit.hpp>
 #include <sigmax/hybrid/fit_target.hpp>
 
 #include "shell/parallel.hpp"
 
 namespace sigmax::apps {
 
-#ifdef SIGMAX_NLOPT
-bool can_search() { return true; }
-
-/// Looks for the least value of a function from the search's start, by NLopt's BOBYQA (Powell 2009), or Sbplx for one
-/// number alone; to 2 % of a logarithm, or until the function was asked `most` times. It draws no random numbers.
-static void search(std::function<double(const std::vector<double>&)> function, const FitSearch& from,
-                   std::size_t most) {
-  const auto n = static_cast<unsigned>(from.start.size());
-  nlopt::opt optimiser(n == 1 ? nlopt::LN_SBPLX : nlopt::LN_BOBYQA, n);
-  optimiser.set_lower_bounds(from.lower);
-  optimiser.set_upper_bounds(from.upper);
-  optimiser.set_initial_step(from.step);
-  optimiser.set_xtol_abs(0.02);
-  optimiser.set_ftol_abs(1e-5);
-  optimiser.set_maxeval(static_cast<int>(most));
-  const auto ask = [](const std::vector<double>& at, std::vector<double>&, void* asked) {
-    return (*static_cast<decltype(function)*>(asked))(at);
-  };
-  optimiser.set_min_objective(ask, &function);
-  std::vector<double> at = from.start;
-  double least = 0.0;
-  try {
-    optimiser.optimize(at, least);
-  } catch (const std::runtime_error&) {  // rounding, or its model broke down: what was found before counts
-  }
-}
+bool can_search() {
+#ifdef SIGMAX_TUNING
+  return true;
 #else
-bool can_search() { return false; }
-
-static void search(const std::function<double(const std::vector<double>&)>&, const FitSearch&, std::size_t) {
-  throw std::logic_error("this build has no NLopt");
-}
+  return false;
 #endif
+}
 
 namespace {
 
@@ -192,7 +167,7 @@ std::vector<FreeNumber> free_numbers(const FilterSettings& settings, const TuneD
   if (options.fits("sensors") && options.objective != Objective::rmse)
     for (const auto& [name, sensor] : data.sensors) add_sensor(settings, name, sensor, data.axes, numbers);
   if (has_transition(settings, options))
-    numbers.push_back({{.name = "leaving a mode, times", .start = 1.0, .reach = 4.0}, leave, false, true});
+    numbers.push_back({{.name = "leaving a mode, times", .start = 1.0}, leave, false, true});
   return numbers;
 }
 
@@ -420,7 +395,7 @@ class Fitter {
         raise(best, name);
     for (const auto& [name, error] : errors) {
       const FreeNumber its = named(best.settings, name);
-      const auto& [unused, start, scale, unit, step, reach] = its.parameter;
+      const auto& [start, scale, unit] = std::tie(its.parameter.start, its.parameter.scale, its.parameter.unit);
       best.numbers.push_back({name, start, error < 1.0 ? (scale == Scale::linear ? unit : start) * error : infinity,
                               its.is_least(), its.sensor});
     }
@@ -760,8 +735,12 @@ class Fitter {
       if (asked++ < most) progress_.advance();
       return value(with(best.settings, numbers, values));
     };
-    const auto by_nlopt = [&](const auto& function, const FitSearch& from) { search(function, from, most - 1); };
-    const Fit found = fit_from(parameters, loss, by_nlopt, fit_search(parameters, options_.seed, start));
+#ifdef SIGMAX_TUNING
+    const Fit found =
+        search(parameters, loss, {.samples = start > 0 ? 8U : 0U, .starts = 1, .seed = options_.seed + start});
+#else
+    const Fit found;
+#endif
     progress_.advance(most - std::min(asked, most));
     if (found.loss < best.fitted) best = {with(best.settings, numbers, found.values), found.loss, {}};
   }

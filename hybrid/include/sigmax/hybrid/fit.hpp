@@ -3,9 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
 #include <limits>
-#include <random>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -22,9 +20,13 @@ struct FitParameter {
   std::string name;
   double start = 1.0;
   Scale scale = Scale::logarithmic;
-  double unit = 1.0;   ///< of a linear one, scaled
-  double step = 0.5;   ///< what a search tries first, and further starts are away, scaled
-  double reach = 9.0;  ///< how far from the start the search goes, scaled
+  /// @{
+  /// The bounds of a search; where they are NaN, nine units of the scale from the start.
+  double least = std::numeric_limits<double>::quiet_NaN();
+  double most = std::numeric_limits<double>::quiet_NaN();
+  /// @}
+  double unit = 1.0;  ///< of a linear one, scaled
+  double step = 0.5;  ///< what a search tries first, scaled
 
   double scaled(double value) const {
     if (scale == Scale::logistic) return std::log(value) - std::log1p(-value);
@@ -41,12 +43,6 @@ struct FitSearch {
   std::vector<double> start, lower, upper, step;
 };
 
-/// How often a fit starts, and from where.
-struct FitOptions {
-  std::size_t starts = 1;  ///< the first where the parameters say, others about it
-  std::uint64_t seed = 1;  ///< of the others
-};
-
 /// What a fit found.
 struct Fit {
   std::vector<double> values;  ///< of the parameters
@@ -54,36 +50,37 @@ struct Fit {
   std::size_t evaluations = 0;
 };
 
-/// Start number s of a fit. It depends on the seed and s alone, so that starts may be fitted in any order, on any
-/// number of threads: the first is where the parameters start, the others within two steps of it.
-/// Throws std::invalid_argument, naming it, for a parameter that cannot start where it is.
-inline FitSearch fit_search(const std::vector<FitParameter>& parameters, std::uint64_t seed, std::size_t s) {
-  std::seed_seq seeds{seed & 0xFFFFFFFFU, seed >> 32U, std::uint64_t{s}};
-  std::mt19937_64 random(seeds);
+/// The numbers of a search, scaled; a start beyond its bounds begins at them. Throws std::invalid_argument, naming it,
+/// for a parameter that cannot start where it is, or whose bounds are none.
+inline FitSearch fit_search(const std::vector<FitParameter>& parameters) {
+  constexpr double reach = 9.0;
   FitSearch search;
   for (const auto& parameter : parameters) {
     const double start = parameter.scaled(parameter.start);
-    if (!std::isfinite(start) || !(parameter.step > 0.0) || !(parameter.reach > 0.0))
+    const double lower = std::isnan(parameter.least) ? start - reach : parameter.scaled(parameter.least);
+    const double upper = std::isnan(parameter.most) ? start + reach : parameter.scaled(parameter.most);
+    if (!std::isfinite(start) || !(parameter.step > 0.0) || !(lower < upper) || !std::isfinite(upper - lower))
       throw std::invalid_argument("the parameter '" + parameter.name + "' cannot start at " +
-                                  std::to_string(parameter.start) + " and be fitted in its scale");
-    const double away = 4.0 * static_cast<double>(random() >> 11U) * 0x1p-53 - 2.0;
-    search.lower.push_back(start - parameter.reach);
-    search.upper.push_back(start + parameter.reach);
-    search.start.push_back(
-        s == 0 ? start : std::clamp(start + away * parameter.step, search.lower.back(), search.upper.back()));
+                                  std::to_string(parameter.start) + " and be fitted in its scale and bounds");
+    search.lower.push_back(lower);
+    search.upper.push_back(upper);
+    search.start.push_back(std::clamp(start, lower, upper));
     search.step.push_back(parameter.step);
   }
   return search;
 }
 
-/// Finds numbers with a small loss, from start number s. `loss(values)` is any function of the numbers: minus the
-/// log_score of a filter with these settings over a recording, an error against the truth, …; where it throws
-/// std::domain_error or is no number, it counts as infinite. `minimise(function, search)` is any search without
-/// derivatives, say one of NLopt's: it calls function(scaled numbers) and never sees an infinite loss, but 1e100. What
-/// counts is the best that the function was ever asked, and never worse than the start.
+/// Finds numbers with a small loss. `loss(values)` is any function of the numbers: minus the log_score of a filter with
+/// these settings over a recording, an error against the truth, …; where it throws std::domain_error or is no number,
+/// it counts as infinite. `minimise(function, search)` is any search without derivatives: it calls function(scaled
+/// numbers) and never sees an infinite loss, but 1e100. What counts is the best that the function was ever asked, and
+/// never worse than the start. The library brings a search along in `sigmax/tuning/search.hpp`, by NLopt:
+///
+///     const Fit best = fit({{.name = "sigma_w", .start = 3.0}, {.name = "sigma_position_m", .start = 10.0}},
+///                          [&](const std::vector<double>& x) { return -score(x[0], x[1]); }, by_my_search);
 template <class Loss, class Minimise>
-Fit fit_from(const std::vector<FitParameter>& parameters, const Loss& loss, const Minimise& minimise,
-             const FitSearch& search) {
+Fit fit(const std::vector<FitParameter>& parameters, const Loss& loss, const Minimise& minimise) {
+  const FitSearch search = fit_search(parameters);
   Fit best;
   const auto values = [&](const std::vector<double>& scaled) {
     std::vector<double> result(scaled.size());
@@ -109,26 +106,6 @@ Fit fit_from(const std::vector<FitParameter>& parameters, const Loss& loss, cons
   best.values = values(search.start);
   function(search.start);
   if (!parameters.empty()) minimise(function, search);
-  return best;
-}
-
-/// The best of several starts, the first of those that are as good. The library brings no search along:
-///
-///     const Fit best = fit({{.name = "sigma_w", .start = 3.0}, {.name = "sigma_position_m", .start = 10.0}},
-///                          [&](const std::vector<double>& x) { return -score(x[0], x[1]); }, by_nlopt, {.starts = 3});
-///
-/// The result is that of the seed.
-template <class Loss, class Minimise>
-Fit fit(const std::vector<FitParameter>& parameters, const Loss& loss, const Minimise& minimise,
-        const FitOptions& options = {}) {
-  Fit best;
-  std::size_t evaluations = 0;
-  for (std::size_t s = 0; s < std::max<std::size_t>(options.starts, 1); ++s) {
-    Fit found = fit_from(parameters, loss, minimise, fit_search(parameters, options.seed, s));
-    evaluations += found.evaluations;
-    if (s == 0 || found.loss < best.loss) best = std::move(found);
-  }
-  best.evaluations = evaluations;
   return best;
 }
 

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+
+#include <sigmax/hybrid/fit.hpp>
+
+namespace sigmax {
+
+/// How much a search asks of a function.
+struct SearchOptions {
+  std::size_t samples = 64;  ///< for each number: points of a Sobol sequence within all bounds, beside the start
+  std::size_t starts = 2;    ///< of all these the best so many are where a local search begins
+  std::size_t local = 25;    ///< evaluations of a local search, for each number and one more
+  std::uint64_t seed = 1;    ///< which part of the sequence
+  std::vector<std::vector<double>> also{};  ///< further points to begin with: values of the parameters
+};
+
+/// Finds numbers with a small loss by NLopt: the best points of a Sobol sequence lead to local searches by BOBYQA
+/// (Powell 2009), or by Sbplx for one number alone, and one more about the best of all. For the loss see `fit`; it is
+/// asked in one thread, and the result is that of the seed. Without parameters it is asked once.
+///
+///     const Fit best = search({{.name = "sigma_w", .start = 3.0, .least = 0.01, .most = 100.0}},
+///                             [&](const std::vector<double>& x) { return rmse(x[0]); });
+///
+/// Throws std::invalid_argument as fit_search, and for a further point of another size.
+Fit search(const std::vector<FitParameter>& parameters, const std::function<double(const std::vector<double>&)>& loss,
+           const SearchOptions& options = {});
+
+}  // namespace sigmax
