@@ -13,9 +13,6 @@ void add_reproduce(CLI::App& program, const std::string& command);
 /// Every filter at its best settings, in many conditions.
 void add_sweep(CLI::App& program, const std::string& command);
 
-/// The results of a study out of the journals of its shards.
-void add_merge(CLI::App& program, const std::string& command);
-
 /// Each target of a recording through every filter.
 void add_track(CLI::App& program, const std::string& command);
 
@@ -26,7 +23,7 @@ void add_tune(CLI::App& program, const std::string& command);
 void add_keys(CLI::App& program, const std::string& command);
 
 /// All of them, as the help lists them.
-inline const std::vector<AddSubcommand> subcommands = {add_simulate, add_reproduce, add_sweep, add_merge,
+inline const std::vector<AddSubcommand> subcommands = {add_simulate, add_reproduce, add_sweep,
                                                        add_track,    add_tune,      add_keys};
 
 }  // namespace sigmax::apps

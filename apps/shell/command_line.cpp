@@ -201,8 +201,6 @@ Option& Option::repeated() {
 
 Option& Option::required() { return option_->required(), *this; }
 
-Option& Option::hidden() { return option_->group(""), *this; }
-
 bool Option::given() const { return option_->count() > 0; }
 
 Subcommand::Subcommand(CLI::App& program, const std::string& name, const std::string& meaning)
@@ -278,14 +276,6 @@ Option Subcommand::triple(const std::string& name, std::optional<std::array<doub
 Option Subcommand::option(const std::string& name) { return Option(app_.get_option(name)); }
 
 void Subcommand::run(const std::function<void()>& work) { app_.callback(work); }
-
-void run_again(const std::vector<AddSubcommand>& subcommands, const std::string& program,
-               std::vector<std::string> arguments) {
-  CLI::App app{"", program};
-  for (const auto add : subcommands) add(app, fmt::format("{} {}", program, fmt::join(arguments, " ")));
-  std::ranges::reverse(arguments);  // as CLI11 wants them
-  app.parse(arguments);
-}
 
 void add_seed(Subcommand app, std::uint64_t& seed, const std::string& of_what) {
   const auto check = [](const std::string& text) -> std::string {

@@ -60,7 +60,6 @@ class Option {
   Option& list_alone();                   ///< and what follows after a blank is none of them
   Option& repeated();                     ///< it takes one value, and may be given again
   Option& required();
-  Option& hidden();  ///< from the help
 
   bool given() const;
 
@@ -116,10 +115,6 @@ class Subcommand {
 /// Adds one subcommand with its options to the program; its callback does the work. `command` is the whole command as
 /// typed.
 using AddSubcommand = void (*)(CLI::App& program, const std::string& command);
-
-/// Runs a subcommand, whose name is the first argument, as if the program had been called with it.
-void run_again(const std::vector<AddSubcommand>& subcommands, const std::string& program,
-               std::vector<std::string> arguments);
 
 /// --seed, which refuses what is no whole number below 2^64.
 void add_seed(Subcommand app, std::uint64_t& seed, const std::string& of_what = "of the random numbers");

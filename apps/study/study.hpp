@@ -27,7 +27,7 @@ struct Study {
 struct Sharing {
   int threads = 0;  ///< 0: as many as the machine has
   std::size_t shard = 0, shards = 1;
-  bool finished = false;  ///< everything must have been done before
+  std::vector<std::string> merged{};  ///< directories of shards, which have done everything before
 };
 
 /// The name of the journal in the directory of the results.
@@ -43,7 +43,7 @@ inline constexpr const char* journal_name = "cells.journal";
 bool run(const Study& study, const Sharing& sharing, const OutputOptions& options,
          const std::function<void(std::size_t cell, const Study::Row& row)>& add);
 
-/// --shard, "1/4" … "4/4"; and --finished, which help does not show.
+/// --shard, "1/4" … "4/4", and --merge.
 void add_shard(Subcommand app, Sharing& sharing);
 
 }  // namespace sigmax::apps

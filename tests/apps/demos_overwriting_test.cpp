@@ -26,7 +26,7 @@ const std::vector<Command> commands = {
     {SIGMAX_HIMM_DEMO, "rmse.csv", {"simulate", "--config", "FILE", "--out", "DIR"}},
     {SIGMAX_HIMM_DEMO, "estimates.csv", {"track", "FILE", "--out", "DIR"}},
     {SIGMAX_HIMM_DEMO, "f.csv", {"track", "FILE", "--report", "FILE"}},
-    {SIGMAX_HIMM_DEMO, "cells.journal", {"merge", "DIR", "--out", "DIR/whole", "--report", "LINK"}},
+    {SIGMAX_HIMM_DEMO, "cells.journal", {"sweep", "--merge", "DIR", "--out", "DIR/whole", "--report", "LINK"}},
 };
 
 /// What suits the program, but for a configuration, which may be empty, and what is refused unread.

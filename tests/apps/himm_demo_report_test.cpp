@@ -199,7 +199,7 @@ TEST_F(ReportPage, OfSweepIsAMapOfConditionsAndFilters) {
   expect_drawn(alone / "report.html", alone / "summary.json");
   expect_drawn(crossed / "report.html", crossed / "summary.json");
   const auto merged = directory.path() / "merged.html";
-  program::succeeds(SIGMAX_HIMM_DEMO, {"merge", crossed, "--out", directory.path() / "merged", "--report", merged});
+  sweep("merged", {"--cross", "--merge", crossed, "--report", merged});
   EXPECT_TRUE(says(contents(merged), {"against the tuned IMM"}));
 }
 

@@ -111,7 +111,8 @@ TEST_F(HimmDemoReproduce, ShardsMergeIntoTheSameBytes) {
   for (const std::string shard : {"1/2", "2/2"})
     campaign(directory.path() / shard.substr(0, 1), arguments + Arguments{"--shard", shard});
   const auto merge = [&](const Arguments& parts) {
-    return program::run(SIGMAX_HIMM_DEMO, Arguments{"merge"} + parts + Arguments{"--out", directory.path() / "merged"});
+    return program::run(SIGMAX_HIMM_DEMO,
+                        arguments + Arguments{"--merge"} + parts + Arguments{"--out", directory.path() / "merged"});
   };
   const auto half = merge({directory.path() / "1"});
   EXPECT_EQ(half.status, 3);

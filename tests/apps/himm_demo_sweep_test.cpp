@@ -121,7 +121,7 @@ TEST_F(HimmDemoSweep, KilledAndStartedAgainItEndsWithTheSameBytes) {
 
 TEST_F(HimmDemoSweep, ShardsMergeIntoTheSameBytes) {
   campaign(directory.path() / "whole", small);
-  Arguments merge = {"merge", "--out", directory.path() / "merged"};
+  Arguments merge = small + Arguments{"--out", directory.path() / "merged", "--merge"};
   for (const std::string shard : {"1", "2", "3"}) {
     campaign(directory.path() / shard, small + Arguments{"--shard", shard + "/3"});
     merge.push_back(directory.path() / shard);
@@ -143,7 +143,8 @@ TEST_F(HimmDemoSweep, ADigitOfAShardThatChangedIsNeverMerged) {
     std::ofstream(shard / "cells.journal") << changed;
     const auto line = 1 + std::count(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(at), '\n');
     const auto where = (shard / "cells.journal").string() + ":" + std::to_string(line) + ": the line";
-    const auto merge = program::run(SIGMAX_HIMM_DEMO, {"merge", shard, directory.path() / "2", "--out", merged});
+    const auto merge =
+        program::run(SIGMAX_HIMM_DEMO, small + Arguments{"--merge", shard, directory.path() / "2", "--out", merged});
     EXPECT_EQ(merge.status, 3);
     EXPECT_TRUE(says(merge.on_one_line(), {at + 1 < whole.size() ? where : "are missing"}));
     const auto resumed = program::run(SIGMAX_HIMM_DEMO, small + Arguments{"--quiet", "--shard", "1/2", "--out", shard});
@@ -186,7 +187,7 @@ TEST_F(HimmDemoSweep, WhatCannotBeIsSaid) {
   EXPECT_EQ(run(small + Arguments{"--shard", "1/2"}).status, 2) << "there is no --out";
   EXPECT_EQ(run(small + Arguments{"--beyond", "1", "--out", out}).status, 3) << "another campaign";
   EXPECT_EQ(run({"sweep", "--filters", "nobody"}).status, 3);
-  EXPECT_EQ(run({"merge", directory.path(), "--out", out}).status, 3);
+  EXPECT_EQ(run(small + Arguments{"--merge", directory.path(), "--out", out}).status, 3);
 }
 
 }  // namespace himm_demo_sweep_test

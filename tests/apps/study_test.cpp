@@ -54,10 +54,10 @@ TEST(Study, WhatAJournalHasIsNotDoneAgain) {
   rows_of(study, {.shard = 1, .shards = 3}, options, false);
   testing::internal::GetCapturedStdout();
   EXPECT_EQ(done, 3);
-  EXPECT_REFUSED(InputError, ("7 of 10 cells are missing"), rows_of(study, {.finished = true}, options));
+  EXPECT_REFUSED(InputError, ("7 of 10 cells are missing"), rows_of(study, {.merged = {directory.path()}}, options));
   const Rows rows = rows_of(study, {}, options);
   EXPECT_EQ(done, 10);
-  EXPECT_EQ(rows, rows_of(study, {.finished = true}, options));
+  EXPECT_EQ(rows, rows_of(study, {.merged = {directory.path()}}, options));
   ASSERT_EQ(rows.size(), 10U);
   EXPECT_EQ(rows[4].second, (Study::Row{4.0, 0.1}));
 }
