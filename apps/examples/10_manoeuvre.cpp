@@ -56,10 +56,12 @@ std::vector<std::vector<double>> follow(const Points& points, const Relation<Kin
 }
 
 template <Uncertainty Kind>
-double credit(Classifier<Kind, Kind> classifier, const std::vector<std::vector<double>>& reports, std::size_t truth) {
+double credit(const Classifier<Kind, Kind>& classifier, const std::vector<std::vector<double>>& reports,
+              std::size_t truth) {
+  Belief belief{classifier.prior()};
   for (const auto& report : reports)
-    classifier.observe(Likelihood{classifier.features().front().relation().to(), report});
-  return examples::credit(classifier.log_belief(), truth);
+    classifier.observe(belief, Likelihood{classifier.features().front().feature(), report});
+  return examples::credit(belief, truth);
 }
 
 int main() {

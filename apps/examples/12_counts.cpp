@@ -48,9 +48,10 @@ int main() {
       std::vector<std::vector<std::size_t>> rows(static_cast<std::size_t>(reports));
       for (auto& row : rows)
         for (const auto& feature : probable) row.push_back(draw(random, feature.row(truth)));
-      const auto right = [&](auto classifier) {
-        classifier.observe_all(rows);
-        return examples::credit(classifier.log_belief(), truth);
+      const auto right = [&](const auto& classifier) {
+        Belief belief{classifier.prior()};
+        classifier.observe_all(belief, rows);
+        return examples::credit(belief, truth);
       };
       contest.add({right(sigma), right(ratio), right(dubois_prade), right(sandri)});
     }

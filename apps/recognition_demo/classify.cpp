@@ -1,9 +1,5 @@
-#include <map>
-
-#include <sigmax/recognition/decision.hpp>
-#include <sigmax/recognition/explanation.hpp>
-
-#include "recognition_demo/row_reader.hpp"
+#include "recognition_demo/contest.hpp"
+#include "recognition_demo/model_file.hpp"
 #include "recognition_demo/subcommands.hpp"
 #include "shell/progress.hpp"
 
@@ -19,18 +15,84 @@ struct ClassifyOptions {
   OutputOptions output;
 };
 
+/// Reads the rows of a file in the code of a model.
+class RowReader {
+ public:
+  /// The model must outlive the reader. What it does not know is missing, or else an InputError. Throws InputError for
+  /// a column of the model that the file does not have.
+  RowReader(const SavedModel& saved, const CsvReader& reader, bool unseen_is_missing)
+      : features_(saved.model.features),
+        missing_(saved.missing),
+        unseen_is_missing_(unseen_is_missing),
+        label_(reader.find(saved.model.counts.pattern().name())),
+        classes_{.name = "", .words = labels_of(saved.model.counts.pattern())},
+        columns_(each(features_, [&](const TableFeature& feature) { return reader.column(feature.name); })) {}
+
+  bool has_truth() const { return label_.has_value(); }
+
+  Readings readings(const CsvRow& row) {
+    return each_below(columns_.size(), [&](std::size_t i) { return reading(row, columns_[i], features_[i]); });
+  }
+
+  /// The class of a row, or `missing` if it is not given.
+  std::size_t truth(const CsvRow& row) {
+    return !label_ || missing_(row[*label_]) ? missing : place(row, *label_, classes_, "a class of the model: ");
+  }
+
+  std::size_t unseen_cells = 0;  ///< that held what the model does not know
+  std::string first_unseen;
+
+ private:
+  std::size_t reading(const CsvRow& row, std::size_t column, const TableFeature& feature) {
+    const std::string_view cell = trimmed(row[column]);
+    if (feature.bins ? missing_.among_numbers(cell) : missing_(cell)) return feature.reading(nan);
+    if (!feature.bins) return place(row, column, feature, "a value that the model knows: ");
+    if (const auto number = parse_number(cell)) return feature.reading(*number);
+    return unseen(row, column, "a finite number with a decimal point",
+                  has_decimal_comma(cell) ? "write a decimal comma as a point" : remedy);
+  }
+
+  /// Where a cell is among the words of a feature.
+  std::size_t place(const CsvRow& row, std::size_t column, const TableFeature& feature, const char* what) {
+    const std::string_view cell = trimmed(row[column]);
+    if (const auto found = feature.find(cell)) return *found;
+    const auto other = std::ranges::find_if(feature.words, [&](const std::string& word) {
+      return !alike({word, cell}).empty();
+    });
+    return unseen(
+        row, column, what + listed(feature.words, 12),
+        other == feature.words.end() ? remedy : fmt::format("if it is {}, write it as there", in_quotes(*other)));
+  }
+
+  /// Counts what is to be taken as missing, or throws.
+  std::size_t unseen(const CsvRow& row, std::size_t column, const std::string& expected, const std::string& advice) {
+    if (!unseen_is_missing_) throw row.error(column, expected, advice);
+    if (unseen_cells++ == 0) first_unseen = row.error(column, expected).what();
+    return missing;
+  }
+
+  static constexpr const char* remedy =
+      "leave the cell empty, or have all such cells counted as missing by --unseen missing";
+
+  const std::vector<TableFeature>& features_;
+  MissingWords missing_;
+  bool unseen_is_missing_;
+  std::optional<std::size_t> label_;
+  TableFeature classes_;
+  std::vector<std::size_t> columns_;
+};
+
 /// What a classifier decided over all rows.
 struct Tally {
   std::string name;
   std::vector<std::size_t> decided;  ///< by class
-  std::vector<double> recognised;    ///< of the decided rows of a class
   std::size_t rejected = 0;
-  std::size_t judged = 0;    ///< decided rows whose class is known
-  std::size_t excluded = 0;  ///< rows that excluded every class
+  std::size_t judged = 0, right = 0;  ///< decided rows whose class is known
+  std::size_t excluded = 0;           ///< rows that excluded every class
 
   std::optional<double> accuracy() const {
     if (judged == 0) return std::nullopt;
-    return sum_of(recognised) / static_cast<double>(judged);
+    return static_cast<double>(right) / static_cast<double>(judged);
   }
 };
 
@@ -48,94 +110,90 @@ std::string number(double value) {
 
 /// Why the best class rather than the next one, with prior and belief of both; none if the readings exclude every
 /// class.
-std::optional<ResultTable> explanation(const Contestant& contestant, const Readings& readings) {
-  const Judged by = judged(contestant, readings);
-  if (by.excluded) return std::nullopt;
-  return of_kind(by.belief, [&]<class Kind>(const Belief<Kind>& belief) {
-    const auto& classifier = std::get<Classifier<Kind, Kind>>(contestant.classifier);
-    const auto both = best_patterns(belief, 2);
-    const std::string &best = belief.variable().label(both[0]), &next = belief.variable().label(both[1]);
-    auto why = explain(classifier, std::span<const std::size_t>(readings), both[0], both[1]);
-    std::ranges::stable_sort(
-        why.contributions, [](const auto& a, const auto& b) { return std::abs(a.log_ratio) > std::abs(b.log_ratio); });
-    ResultTable table({of_words("", fmt::format("{}: {} rather than {}, because", contestant.name, best, next)),
-                       {.header = "the same of " + next},
-                       {.header = "log of the ratio"}});
-    table.row({fmt::format("before any reading: {} = {:.4g}", best, classifier.prior()[both[0]]),
-               number(classifier.prior()[both[1]]), number(why.log_prior_ratio)});
-    for (const Contribution& each : why.contributions)
-      table.row({each.equation, number(std::exp(each.rival_log_likelihood)), number(each.log_ratio)});
-    table.rule();
-    table.row({fmt::format("{} = {:.4g}", best, belief[both[0]]), number(belief[both[1]]), number(why.log_ratio())});
-    return table;
-  });
+std::optional<ResultTable> explanation(const TableClassifier& by, const Readings& readings) {
+  const TablePrediction prediction = by.predict(readings);
+  if (prediction.excluded) return std::nullopt;
+  auto why = by.explain(readings);
+  std::ranges::stable_sort(why.contributions, std::greater{},
+                           [](const Contribution& one) { return std::abs(one.log_ratio); });
+  const auto& pattern = by.model().counts.pattern();
+  const std::string best = pattern.label(why.pattern), next = pattern.label(why.rival);
+  const auto belief = [&](std::size_t c) {
+    return std::visit([&](const auto& all) { return all[c]; }, prediction.belief);
+  };
+  ResultTable table({of_words("", fmt::format("{}: {} rather than {}, because", by.name(), best, next)),
+                     {.header = "the same of " + next},
+                     {.header = "log of the ratio"}});
+  table.row({fmt::format("before any reading: {} = {:.4g}", best, std::exp(why.log_prior)),
+             number(std::exp(why.rival_log_prior)), number(why.log_prior_ratio)});
+  for (const Contribution& each : why.contributions)
+    table.row({each.equation, number(std::exp(each.rival_log_likelihood)), number(each.log_ratio)});
+  table.rule();
+  table.row(
+      {fmt::format("{} = {:.4g}", best, belief(why.pattern)), number(belief(why.rival)), number(why.log_ratio())});
+  return table;
 }
 
 /// The rows of a file, classified one after the other.
 struct Classified {
   std::size_t rows = 0;
-  std::vector<std::size_t> rows_of_class;  ///< of those whose class is known
   std::vector<Tally> tallies;
   std::vector<ShownRow> shown;
 };
 
-Classified classify_all(const ClassifyOptions& options, const LearnedModel& model, const std::vector<Contestant>& all,
-                        CsvReader& reader, RowReader& rows, RowFile& file) {
-  const auto& pattern = model.counts.pattern();
-  // What a classifier says of a row: counted, shown, and written to the file if there is one.
-  const auto take = [&]<class Kind>(const Belief<Kind>& belief, std::size_t line, std::optional<std::size_t> truth,
-                                    Tally& tally, ShownRow* show) {
-    const Decision decision = decide(belief);
-    const bool rejected = decision.margin < options.least_margin;
-    if (rejected) {
-      ++tally.rejected;
-    } else {
-      ++tally.decided[decision.pattern];
-      if (truth) ++tally.judged;
-      if (truth == decision.pattern) ++tally.recognised[*truth];
-    }
-    if (show)
-      show->decisions.push_back(fmt::format("{} ({} {:.3f}{})", rejected ? "rejected" : pattern.label(decision.pattern),
-                                            SelectiveAlgebra<AlgebraOf<Kind>> ? "N" : "margin", decision.margin,
-                                            !rejected && decision.tied > 1 ? ", a tie" : ""));
-    if (!file) return;
-    std::vector<Cell> cells = {line, tally.name, rejected ? Cell() : Cell(pattern.label(decision.pattern)),
-                               decision.margin};
-    if (rows.has_truth()) cells.insert(cells.begin() + 1, truth ? pattern.label(*truth) : "");
-    for (std::size_t c = 0; c < belief.size(); ++c) cells.emplace_back(belief[c]);
-    file.write(cells);
-  };
+Classified classify_all(const ClassifyOptions& options, const std::vector<TableClassifier>& all, CsvReader& reader,
+                        RowReader& rows, RowFile& file) {
+  const auto& pattern = all.front().model().counts.pattern();
+  const auto label = [&](std::size_t c) { return c == missing ? "" : pattern.label(c); };
   Classified result;
-  result.rows_of_class.assign(pattern.size(), 0);
-  for (const Contestant& one : all)
-    result.tallies.push_back({one.name, result.rows_of_class, std::vector<double>(pattern.size(), 0.0)});
+  for (const TableClassifier& one : all)
+    result.tallies.push_back({std::string(one.name()), std::vector<std::size_t>(pattern.size())});
   Progress progress("classifying", reader.bytes_total().value_or(0), options.output.quiet || !reader.bytes_total());
   for (CsvRow row; reader.next(row); ++result.rows) {
-    const Readings report = rows.readings(row);
-    const auto truth = rows.truth(row);
-    if (truth) ++result.rows_of_class[*truth];
-    ShownRow* const show =
-        result.rows < options.rows
-            ? &result.shown.emplace_back(ShownRow{row.line(), truth ? pattern.label(*truth) : "", report, {}})
-            : nullptr;
+    const Readings readings = rows.readings(row);
+    const std::size_t truth = rows.truth(row);
+    ShownRow shown{row.line(), label(truth), readings, {}};
     for (std::size_t i = 0; i < all.size(); ++i) {
-      const Judged by = judged(all[i], report);
-      if (by.excluded) ++result.tallies[i].excluded;
-      of_kind(by.belief, [&](const auto& belief) { take(belief, row.line(), truth, result.tallies[i], show); });
+      Tally& tally = result.tallies[i];
+      const TablePrediction prediction = all[i].predict(readings);
+      const bool rejected = prediction.margin < options.least_margin;
+      const bool fuzzy = std::holds_alternative<Belief<Fuzzy>>(prediction.belief);
+      if (prediction.excluded) ++tally.excluded;
+      if (rejected) {
+        ++tally.rejected;
+      } else {
+        ++tally.decided[prediction.pattern];
+        if (truth != missing) ++tally.judged;
+        if (truth == prediction.pattern) ++tally.right;
+      }
+      shown.decisions.push_back(fmt::format("{} ({} {:.3f}{})", rejected ? "rejected" : prediction.label,
+                                            fuzzy ? "N" : "margin", prediction.margin,
+                                            !rejected && prediction.tied > 1 ? ", a tie" : ""));
+      if (!file) continue;
+      std::vector<Cell> cells = {row.line(), tally.name, rejected ? Cell() : Cell(prediction.label), prediction.margin};
+      if (rows.has_truth()) cells.insert(cells.begin() + 1, label(truth));
+      std::visit(
+          [&](const auto& belief) {
+            for (std::size_t c = 0; c < belief.size(); ++c) cells.emplace_back(belief[c]);
+          },
+          prediction.belief);
+      file.write(cells);
     }
+    if (result.rows < options.rows) result.shown.push_back(std::move(shown));
     progress.advance(reader.bytes_read() - progress.done());
   }
   progress.finish();
   return result;
 }
 
-ResultTable shown_table(const std::string& label, bool has_truth, const std::vector<Contestant>& all,
+ResultTable shown_table(const std::string& label, bool has_truth, const std::vector<TableClassifier>& all,
                         const std::vector<ShownRow>& shown) {
   ResultTable table;
   for (const ShownRow& row : shown) {
     std::vector<Field> fields = {{{.header = "line"}, row.line}};
     if (has_truth) fields.push_back({of_words("", label), row.truth});
-    for (std::size_t i = 0; i < all.size(); ++i) fields.push_back({of_words("", all[i].name), row.decisions[i]});
+    for (std::size_t i = 0; i < all.size(); ++i)
+      fields.push_back({of_words("", std::string(all[i].name())), row.decisions[i]});
     table.row_of(fields);
   }
   return table;
@@ -162,7 +220,7 @@ ResultTable totals_table(const RandomVariable& pattern, bool has_truth, const Cl
 void add_facts(const ClassifyOptions& options, const RandomVariable& pattern, const Classified& found,
                const RowReader& rows, Result& result) {
   result.facts("model", options.model, "file", options.file, "rows", found.rows, "least_margin", options.least_margin);
-  if (rows.unseen_cells() > 0) result.fact({"unseen_cells_counted_as_missing"}, rows.unseen_cells());
+  if (rows.unseen_cells > 0) result.fact({"unseen_cells_counted_as_missing"}, rows.unseen_cells);
   for (const Tally& tally : found.tallies) {
     for (std::size_t c = 0; c < pattern.size(); ++c)
       result.fact({"classifiers", tally.name, "decided", pattern.label(c)}, tally.decided[c]);
@@ -172,27 +230,27 @@ void add_facts(const ClassifyOptions& options, const RandomVariable& pattern, co
 }
 
 /// The support that a row gives to each class, and why.
-View view_of(const ShownRow& row, const RandomVariable& pattern, const std::vector<Contestant>& all) {
+View view_of(const ShownRow& row, const RandomVariable& pattern, const std::vector<TableClassifier>& all) {
   View view{fmt::format("line {}", row.line), {}};
   HeatMap support{
       .title = row.truth.empty() ? "Support of the classes" : "Support of the classes; true is " + row.truth,
       .row_label = "classifier",
       .column_label = pattern.name(),
-      .rows = each(all, &Contestant::name),
+      .rows = each(all, [](const TableClassifier& one) { return std::string(one.name()); }),
       .columns = labels_of(pattern),
-      .values = each(all, [&](const Contestant& one) { return follow(one, 0, {row.readings}).belief; }),
+      .values = each(all, [&](const TableClassifier& one) { return numbers_of(one.predict(row.readings).belief); }),
       .value_label = "probability or possibility"};
   view.panels.emplace_back(std::move(support));
-  for (const Contestant& contestant : all)
-    if (auto why = explanation(contestant, row.readings))
-      view.panels.emplace_back(ReportTable{contestant.name, std::move(*why)});
+  for (const TableClassifier& one : all)
+    if (auto why = explanation(one, row.readings))
+      view.panels.emplace_back(ReportTable{std::string(one.name()), std::move(*why)});
     else
-      view.panels.emplace_back(Words{contestant.name, "The readings exclude every class."});
+      view.panels.emplace_back(Words{std::string(one.name()), "The readings exclude every class."});
   return view;
 }
 
-void fill(Report& page, const ClassifyOptions& options, const LearnedModel& model, const std::vector<Contestant>& all,
-          const Classified& result, bool has_truth) {
+void fill(Report& page, const ClassifyOptions& options, const TableModel& model,
+          const std::vector<TableClassifier>& all, const Classified& result, bool has_truth) {
   constexpr std::size_t most_views = 200;
   const auto& pattern = model.counts.pattern();
   page.chooser = "Row";
@@ -205,68 +263,44 @@ void fill(Report& page, const ClassifyOptions& options, const LearnedModel& mode
   page.last = relation_maps(learned_relations(model.counts, model.options.smoothing), 6);
 }
 
-/// Says if the rows are right less often than those that were learned were when left out, class by class, since there
-/// may be more rows of some.
-void say_swapped(const LearnedModel& model, const Classified& found, Result& result) {
-  constexpr double few = 5.0, few_learned = 10.0, errors = 3.5, less = 0.05;
-  const auto sigma = std::ranges::find(found.tallies, kind_names.front(), &Tally::name);
-  if (sigma == found.tallies.end() || model.right.empty() || sigma->rejected > 0) return;
-  RunningMean here, there;
-  double variance = 0.0;
-  for (std::size_t c = 0; c < model.right.size(); ++c) {
-    const auto rows = static_cast<double>(found.rows_of_class[c]), learned = model.counts.rows(c);
-    if (rows < few || learned < few_learned) continue;
-    here.add(sigma->recognised[c] / rows);
-    there.add(model.right[c]);
-    const double share = (sigma->recognised[c] + model.right[c] * learned + 1.0) / (rows + learned + 2.0);
-    variance += share * (1.0 - share) * (1.0 / rows + 1.0 / learned);
-  }
-  if (here.count() == 0) return;
-  const double lower = there.mean() - here.mean();
-  if (lower > std::max(less, errors * std::sqrt(variance) / static_cast<double>(here.count())))
-    result.say(
-        "Sigma is right in {:.1f} % of the rows of a class on average, {:.1f} % when those learned from were left out: "
-        "labels or columns are swapped, or the rows have drifted; compare them with those learned from",
-        100.0 * here.mean(), 100.0 * there.mean());
-}
-
 void run_classify(const ClassifyOptions& options) {
   refuse_to_overwrite(options.output, {options.model, options.file}, {"predictions.csv"});
   ResultFiles files(options.output);
-  const ModelFile model_file = read_model(options.model);
-  const LearnedModel& model = model_file.model;
-  const auto& pattern = model.counts.pattern();
-  const auto all = classifiers(model, model_file.kinds);
+  const SavedModel saved = read_model(options.model);
+  const auto& pattern = saved.model.counts.pattern();
+  const auto all = classifiers(saved.model, saved.kinds);
 
   CsvReader reader = open_csv(options.file);
-  RowReader rows(model, reader, options.unseen == "missing");
+  RowReader rows(saved, reader, options.unseen == "missing");
   std::vector<std::string> keys = {"line", "truth", "classifier", "decision", "margin"};
   if (!rows.has_truth()) keys.erase(keys.begin() + 1);
   for (std::size_t c = 0; c < pattern.size(); ++c) keys.push_back(pattern.label(c));
   RowFile file(files, "predictions.csv", keys);
-  const Classified found = classify_all(options, model, all, reader, rows, file);
+  const Classified found = classify_all(options, all, reader, rows, file);
   if (found.rows == 0) throw InputError("{}: there is no row below the header", reader.file());
 
   Result result = result_of_contest("Classes of " + options.file, options.output);
   result.say("{}: {} rows, by {}", reader.file(), found.rows, options.model);
-  const bool in_another_unit = rows.say_otherwise(result);
-  if (!found.shown.empty()) result.add(shown_table(model.label, rows.has_truth(), all, found.shown), {});
+  if (rows.unseen_cells > 0)
+    result.say("\n{} as missing, since the model does not know {}: {}",
+               rows.unseen_cells == 1 ? "1 cell counts" : fmt::format("{} cells count", rows.unseen_cells),
+               rows.unseen_cells == 1 ? "it" : "them; the first", rows.first_unseen);
+  if (!found.shown.empty()) result.add(shown_table(pattern.name(), rows.has_truth(), all, found.shown), {});
   result.add(totals_table(pattern, rows.has_truth(), found), {});
   for (const Tally& tally : found.tallies)
     if (tally.excluded > 0)
       result.say("{}: {} rows excluded every class and were judged by the prior", tally.name, tally.excluded);
-  if (!in_another_unit) say_swapped(model, found, result);  // else that is the cause
   if (options.explain)
     for (const ShownRow& row : found.shown) {
       result.text += fmt::format("\nline {}\n", row.line);
-      for (const Contestant& contestant : all)
-        if (const auto table = explanation(contestant, row.readings))
+      for (const TableClassifier& one : all)
+        if (const auto table = explanation(one, row.readings))
           result.add(*table, {});
         else
-          result.text += fmt::format("\n{}: the readings exclude every class\n", contestant.name);
+          result.text += fmt::format("\n{}: the readings exclude every class\n", one.name());
     }
   add_facts(options, pattern, found, rows, result);
-  if (files.report_wanted()) fill(result.page, options, model, all, found, rows.has_truth());
+  if (files.report_wanted()) fill(result.page, options, saved.model, all, found, rows.has_truth());
   result.publish(files);
 }
 

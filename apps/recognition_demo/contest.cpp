@@ -2,7 +2,6 @@
 
 #include <sigmax/core/transform.hpp>
 #include <sigmax/recognition/decision.hpp>
-#include <sigmax/recognition/dominance.hpp>
 
 #include "table/csv.hpp"
 
@@ -10,15 +9,15 @@ namespace sigmax::apps {
 namespace {
 
 /// Calls see(belief in the patterns) after each report. What would exclude every pattern is passed over; returns how
-/// many reports were. The classifier, whose tables are large, is not copied: any thread may use it.
+/// many reports were.
 template <class See>
 std::size_t observe_all(const Contestant& contestant, const std::vector<Readings>& reports, const See& see) {
   std::size_t refused = 0;
-  of_kind(contestant.classifier, [&](const auto& classifier) {
+  const auto observe = [&](const auto& classifier) {
     Belief belief{classifier.prior()};
     for (const Readings& report : reports) {
       try {
-        update(belief, classifier.likelihood(report), belief);
+        classifier.observe(belief, report);
       } catch (const std::domain_error&) {
         ++refused;
       }
@@ -29,14 +28,9 @@ std::size_t observe_all(const Contestant& contestant, const std::vector<Readings
         }
       see(belief);
     }
-  });
+  };
+  std::visit(observe, contestant.classifier);
   return refused;
-}
-
-template <class Kind>
-std::vector<double> numbers_of(const Belief<Kind>& belief) {
-  const auto distribution = belief.distribution();
-  return {distribution.values().begin(), distribution.values().end()};
 }
 
 /// 1 if the greatest value is that of `truth` alone, 1/n if n values tie, else 0; ties as `decide` has them.
@@ -59,6 +53,15 @@ double telling(const Relation<Random, Random>& relation) {
 
 }  // namespace
 
+std::vector<double> numbers_of(const AnyBelief& belief) {
+  return std::visit(
+      [](const auto& one) {
+        const auto distribution = one.distribution();
+        return std::vector<double>{distribution.values().begin(), distribution.values().end()};
+      },
+      belief);
+}
+
 Trace follow(const Contestant& contestant, std::size_t truth, const std::vector<Readings>& reports) {
   Trace trace;
   trace.refused = observe_all(contestant, reports, [&](const auto& belief) {
@@ -74,30 +77,6 @@ Beliefs beliefs_over(const Contestant& contestant, const std::vector<Readings>& 
   return beliefs;
 }
 
-Judged judged(const Contestant& contestant, const Readings& row) {
-  return of_kind(contestant.classifier, [&](const auto& classifier) {
-    Belief belief{classifier.prior()};
-    bool excluded = false;
-    try {
-      update(belief, classifier.likelihood(row), belief);
-    } catch (const std::domain_error&) {
-      excluded = true;
-    }
-    return Judged{std::move(belief), excluded};
-  });
-}
-
-std::vector<Dominated> dominated(const std::vector<Contestant>& contestants) {
-  std::vector<Dominated> result;
-  for (const Contestant& contestant : contestants)
-    of_kind(contestant.classifier, [&](const auto& classifier) {
-      const auto& pattern = classifier.prior().variable();
-      for (const Dominance& found : dominated_patterns(classifier))
-        result.push_back({contestant.name, pattern.label(found.pattern), pattern.label(found.dominator)});
-    });
-  return result;
-}
-
 Result result_of_contest(std::string title, const OutputOptions& output, const std::vector<Contestant>& contestants) {
   constexpr std::size_t widest_words = 120;  // longer lines are hard to read
   Result result(output);
@@ -105,14 +84,6 @@ Result result_of_contest(std::string title, const OutputOptions& output, const s
   result.page.title = std::move(title);
   for (const Contestant& contestant : contestants) result.page.groups.push_back({.name = contestant.name});
   return result;
-}
-
-Relation<Random, Random> mostly_right(const RandomVariable& reading, const RandomVariable& feature, double right,
-                                      double wrong) {
-  const std::size_t n = feature.size();
-  std::vector<std::vector<double>> rows(n, std::vector<double>(n, wrong / static_cast<double>(n - 1)));
-  for (std::size_t f = 0; f < n; ++f) rows[f][f] = right;
-  return {reading, feature, rows};
 }
 
 std::vector<double> counted_from(std::size_t first, std::size_t count) {

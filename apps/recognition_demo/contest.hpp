@@ -1,6 +1,6 @@
 #pragma once
 
-#include <sigmax/recognition/classifier.hpp>
+#include <sigmax/recognition/table_classifier.hpp>
 
 #include "report/result.hpp"
 
@@ -23,19 +23,13 @@ double sum_of(const Range& range, const Of& of = {}) {
 /// One of the classifiers that are compared on the same reports.
 struct Contestant {
   std::string name;
-  std::variant<SigmaClassifier, MaxClassifier> classifier;
+  AnyClassifier classifier;
   /// For a sigma classifier of something finer than the pattern: the pattern of each of its outcomes.
   std::optional<Relation<Random, Random>> pattern_given_state = std::nullopt;
   bool has_possibilities = true;  ///< anywhere: of the pattern, of the feature, or of the reading
 
   bool fuzzy() const { return std::holds_alternative<MaxClassifier>(classifier); }
 };
-
-/// What a function says of a classifier, a belief or the like, of whichever kind it is.
-template <class AnyKind, class Of>
-decltype(auto) of_kind(AnyKind&& one, const Of& of) {
-  return std::visit(of, std::forward<AnyKind>(one));
-}
 
 /// What a classifier made of one run.
 struct Trace {
@@ -54,18 +48,8 @@ Trace follow(const Contestant& contestant, std::size_t truth, const std::vector<
 using Beliefs = std::vector<std::vector<double>>;
 Beliefs beliefs_over(const Contestant& contestant, const std::vector<Readings>& reports);
 
-/// What the contestant's classifier believes after a row of readings alone; the prior if that excludes every class.
-struct Judged {
-  std::variant<Belief<Random>, Belief<Fuzzy>> belief;
-  bool excluded = false;
-};
-Judged judged(const Contestant& contestant, const Readings& row);
-
-/// A pattern that a contestant can never prefer, since the dominator is always at least as good.
-struct Dominated {
-  std::string contestant, pattern, dominator;
-};
-std::vector<Dominated> dominated(const std::vector<Contestant>& contestants);
+/// Probability or possibility of each pattern.
+std::vector<double> numbers_of(const AnyBelief& belief);
 
 /// A column of differences between shares of right decisions, in points.
 inline ResultColumn of_points(std::string key, std::string header) {
@@ -85,10 +69,6 @@ template <class Variable>
 std::vector<std::string> labels_of(const Variable& variable) {
   return each_below(variable.size(), [&](std::size_t i) { return variable.label(i); });
 }
-
-/// p(reading|feature): `right` where both have the same place, `wrong` in equal parts for the other readings.
-Relation<Random, Random> mostly_right(const RandomVariable& reading, const RandomVariable& feature, double right,
-                                      double wrong);
 
 /// A relation as a page shows it, with what text_of(row, column) says beside each number.
 template <class Numbers, class TextOf>

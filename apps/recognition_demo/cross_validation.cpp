@@ -1,52 +1,110 @@
 #include "recognition_demo/cross_validation.hpp"
 
+#include <map>
+#include <set>
+
+#include <sigmax/recognition/folds.hpp>
+
+#include "recognition_demo/model_file.hpp"
 #include "shell/parallel.hpp"
 #include "shell/progress.hpp"
 
 namespace sigmax::apps {
 namespace {
 
-/// The scores in one fold, by classifier; who was right is noted.
-std::vector<Outcome> classify_fold(const DataTable& data, const Folds& folds, std::size_t fold,
-                                   const LearningOptions& options, Right& right) {
-  const TaughtFold taught_fold = taught(data, folds, fold, options);
+/// The scores in one fold, by classifier; of each row who was right is counted.
+std::vector<Outcome> classify_fold(const LabelledTable& data, const Folds& folds, std::size_t fold,
+                                   const TableOptions& options, std::vector<Results::TimesRight>& times_right) {
+  const auto all = taught(data, folds, fold, options);
   std::vector<Outcome> outcomes;
-  for (const Contestant& contestant : taught_fold.contestants)
-    of_kind(contestant.classifier, [&](const auto& by) {
-      outcomes.push_back({contestant.name, Evaluation{by.prior().variable()}});
-    });
-  classify_rows(data, folds, taught_fold, 0, outcomes.size(), [&](std::size_t row, std::size_t i, const Judged& by) {
-    of_kind(by.belief, [&]<class Kind>(const Belief<Kind>& belief) {
-      const bool is_right = std::get<Evaluation<Kind>>(outcomes[i].evaluation).add(data.labels[row], belief) > 0.0;
-      const unsigned bits = (i == 0 ? 0U : right[row]) | (is_right ? 1U << i : 0U);
-      right[row] = static_cast<std::uint8_t>(bits);
-      outcomes[i].reliability.add(data.labels[row], belief);
-    });
-    if (by.excluded) ++outcomes[i].excluded;
-  });
+  for (const TableClassifier& one : all)
+    std::visit(
+        [&](const auto& by) {
+          outcomes.push_back({std::string(one.name()), Evaluation{by.prior().variable()}});
+        },
+        one.classifier());
+  for (std::size_t row = 0; row < data.size(); ++row) {
+    if (folds[row] != fold) continue;
+    const auto readings = all.front().readings(data.columns, row);
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      const TablePrediction prediction = all[i].predict(readings);
+      if (prediction.excluded) ++outcomes[i].excluded;
+      std::visit(
+          [&]<class Kind>(const Belief<Kind>& belief) {
+            auto& evaluation = std::get<Evaluation<Kind>>(outcomes[i].evaluation);
+            times_right[row][i] += evaluation.add(data.labels[row], belief) > 0.0 ? 1U : 0U;
+            outcomes[i].reliability.add(data.labels[row], belief);
+          },
+          prediction.belief);
+    }
+  }
   return outcomes;
+}
+
+void add(std::vector<Outcome>& outcomes, std::vector<Outcome> fold) {
+  if (outcomes.empty()) outcomes.swap(fold);
+  for (std::size_t i = 0; i < fold.size(); ++i) {
+    outcomes[i].excluded += fold[i].excluded;
+    outcomes[i].reliability.add(fold[i].reliability);
+    std::visit([&]<class Kind>(Evaluation<Kind>& sum) { sum.add(std::get<Evaluation<Kind>>(fold[i].evaluation)); },
+               outcomes[i].evaluation);
+  }
+}
+
+/// The fold of every row, that of its group.
+Folds grouped_folds(const LabelledTable& data, const Groups& groups, std::size_t folds, std::mt19937_64& generator) {
+  constexpr int most_tries = 100;
+  std::vector<std::size_t> rows;                               // of each group
+  std::vector<std::set<std::size_t>> of(data.classes.size());  // the groups of each class
+  for (std::size_t row = 0; row < data.size(); ++row) {
+    const std::size_t own = groups[row];
+    rows.resize(std::max(rows.size(), own + 1));
+    ++rows[own];
+    of[data.labels[row]].insert(own);
+  }
+  if (rows.size() < folds)
+    throw InputError("{}: found {} groups, expected at least as many as the {} folds; give fewer --folds", data.file,
+                     rows.size(), folds);
+  std::vector<std::size_t> order = each_below(rows.size(), std::identity{}), fold(rows.size());
+  const auto is_parted = [&](const std::set<std::size_t>& its) {
+    return std::ranges::any_of(its, [&](std::size_t one) { return fold[one] != fold[*its.begin()]; });
+  };
+  for (int tried = 0; tried == 0 || !std::ranges::all_of(of, is_parted); ++tried) {
+    if (tried == most_tries) {
+      const auto whole = std::ranges::find_if_not(of, is_parted);
+      throw InputError(
+          "{}: the rows of class {} are of {} groups, which came into one fold: expected two at least, one to learn "
+          "from, one to classify",
+          data.file, in_quotes(data.classes[static_cast<std::size_t>(whole - of.begin())]), whole->size());
+    }
+    for (std::size_t left = order.size(); left > 1; --left) std::swap(order[left - 1], order[generator() % left]);
+    std::vector<std::size_t> sizes(folds);
+    for (const std::size_t one : order) {
+      fold[one] = static_cast<std::size_t>(std::ranges::min_element(sizes) - sizes.begin());
+      sizes[fold[one]] += rows[one];
+    }
+  }
+  return each(groups, [&](std::uint32_t group) { return fold[group]; });
 }
 
 }  // namespace
 
-void Results::add(std::vector<Outcome> fold) {
-  if (outcomes.empty()) {
-    outcomes = std::move(fold);
-    return;
+Groups groups_of(const LabelledTable& data, const std::string& column) {
+  CsvReader reader = open_csv(data.file);
+  const std::size_t place = reader.column(column);
+  Vocabulary names;
+  Groups groups;
+  for (CsvRow row; reader.next(row);) {
+    const std::string_view name = trimmed(row[place]);
+    if (name.empty() || says_unknown(name)) throw row.error(place, "the name of the row's group", "fill the cell");
+    groups.push_back(static_cast<std::uint32_t>(names.number(name)));
   }
-  for (std::size_t i = 0; i < outcomes.size(); ++i) {
-    outcomes[i].excluded += fold[i].excluded;
-    outcomes[i].reliability.add(fold[i].reliability);
-    of_kind(outcomes[i].evaluation, [&]<class Kind>(Evaluation<Kind>& evaluation) {
-      evaluation.add(std::get<Evaluation<Kind>>(fold[i].evaluation));
-    });
-  }
+  return groups;
 }
 
-void Results::add(const Right& right) {
-  times_right.resize(right.size());
-  for (std::size_t row = 0; row < right.size(); ++row)
-    for (std::size_t i = 0; i < outcomes.size(); ++i) times_right[row][i] += right[row] >> i & 1U;
+Folds divided(const LabelledTable& data, const std::optional<Groups>& groups, std::size_t folds,
+              std::mt19937_64& generator) {
+  return groups ? grouped_folds(data, *groups, folds, generator) : stratified_folds(data.labels, folds, generator);
 }
 
 Interval Results::minus_first(std::size_t i, std::size_t foldings) const {
@@ -68,23 +126,28 @@ Interval Results::minus_first(std::size_t i, std::size_t foldings) const {
   return groups ? by_group.interval() : by_row.interval();
 }
 
-Results cross_validated(const DataTable& data, const Deal& deal, const EvaluateOptions& options) {
-  Results results;
-  Right right(data.size());
+std::vector<TableClassifier> taught(const LabelledTable& data, const Folds& folds, std::size_t fold,
+                                    const TableOptions& options) {
+  return classifiers(TableModel::fit(data.columns, {data.label, data.classes}, data.labels, options,
+                                     [&](std::size_t row) { return folds[row] != fold; }));
+}
+
+Results cross_validated(const LabelledTable& data, const std::optional<Groups>& groups,
+                        const EvaluateOptions& options) {
+  Results results{{}, std::vector<Results::TimesRight>(data.size()), groups};
   const int threads = threads_or_all(options.threads);
   Progress progress("folds", options.folds * options.foldings, options.output.quiet);
   std::mt19937_64 generator(options.seed);
   for (std::size_t folding = 0; folding < options.foldings; ++folding) {
-    const Folds folds = deal(generator);
+    const Folds folds = divided(data, groups, options.folds, generator);
     for_each_run(
         options.folds, threads,
-        [&](std::size_t fold) { return classify_fold(data, folds, fold, options.learning, right); },
+        [&](std::size_t fold) { return classify_fold(data, folds, fold, options.learning, results.times_right); },
         [&](std::size_t, std::vector<Outcome> fold) {
           progress.advance();
-          results.add(std::move(fold));
+          add(results.outcomes, std::move(fold));
         },
         2 * static_cast<std::size_t>(threads));
-    results.add(right);
   }
   progress.finish();
   return results;

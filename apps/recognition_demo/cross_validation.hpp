@@ -1,18 +1,21 @@
 #pragma once
 
 #include <array>
+#include <random>
 
 #include <sigmax/recognition/evaluation.hpp>
 #include <sigmax/recognition/reliability.hpp>
+#include <sigmax/recognition/table_classifier.hpp>
 
-#include "recognition_demo/folding.hpp"
+#include "records/labelled_table.hpp"
+#include "report/result.hpp"
 
 namespace sigmax::apps {
 
 struct EvaluateOptions {
   std::string file;
-  DataOptions data;
-  LearningOptions learning;
+  TableReading data;
+  TableOptions learning;
   std::size_t folds = 10;
   std::size_t foldings = 20;  ///< divisions into folds
   std::uint64_t seed = 1;     ///< of the folds
@@ -20,6 +23,20 @@ struct EvaluateOptions {
   int threads = 0;            ///< 0: as many as the machine has
   OutputOptions output;
 };
+
+/// The fold of each row, and the group.
+using Folds = std::vector<std::size_t>;
+using Groups = std::vector<std::uint32_t>;
+
+/// A number of each row, the same where a column of the file that the data is of holds the same word. Throws InputError
+/// for an empty cell, or a column that there is not.
+Groups groups_of(const LabelledTable& data, const std::string& column);
+
+/// Divides the rows into folds: by equal shares of every class, or whole groups by chance, each into one of the folds
+/// with the fewest rows. Throws InputError if there are fewer groups than folds, or if the rows of a class cannot be
+/// parted so.
+Folds divided(const LabelledTable& data, const std::optional<Groups>& groups, std::size_t folds,
+              std::mt19937_64& generator);
 
 /// The scores of one classifier.
 struct Outcome {
@@ -29,19 +46,13 @@ struct Outcome {
   Reliability reliability{};
 
   const ConfusionMatrix& confusion() const {
-    return of_kind(evaluation, [](const auto& e) -> const ConfusionMatrix& { return e.confusion(); });
+    return std::visit([](const auto& e) -> const ConfusionMatrix& { return e.confusion(); }, evaluation);
   }
   double ties() const {
-    return of_kind(evaluation,
-                   [](const auto& e) { return static_cast<double>(e.ties()) / static_cast<double>(e.size()); });
+    return std::visit([](const auto& e) { return static_cast<double>(e.ties()) / static_cast<double>(e.size()); },
+                      evaluation);
   }
 };
-
-/// Divides the rows into folds.
-using Deal = std::function<Folds(std::mt19937_64& generator)>;
-
-/// Of every row the classifiers that were right, a bit for each.
-using Right = std::vector<std::uint8_t>;
 
 /// Adds up folds in their order, and foldings.
 struct Results {
@@ -51,17 +62,16 @@ struct Results {
   std::vector<TimesRight> times_right;  ///< by row
   std::optional<Groups> groups;         ///< that rows are of, if --groups tells
 
-  void add(std::vector<Outcome> fold);
-
-  /// Who was right in a whole folding.
-  void add(const Right& right);
-
   /// Right answers of a classifier less those of the first, paired by row; a row counts by its mean over the foldings.
   /// Of groups, if there are any, the rows do not depend on chance apart: the interval is that of sums over groups.
   Interval minus_first(std::size_t i, std::size_t foldings) const;
 };
 
+/// The classifiers that the rows of the other folds teach.
+std::vector<TableClassifier> taught(const LabelledTable& data, const Folds& folds, std::size_t fold,
+                                    const TableOptions& options);
+
 /// Classifies every row by what the rows of other folds teach, in each folding.
-Results cross_validated(const DataTable& data, const Deal& deal, const EvaluateOptions& options);
+Results cross_validated(const LabelledTable& data, const std::optional<Groups>& groups, const EvaluateOptions& options);
 
 }  // namespace sigmax::apps

@@ -19,7 +19,7 @@ struct EsmWorld {
   Relation<Fuzzy, Fuzzy> carries(double elsewhere = 0.0) const;
 
   /// p(reading|emitter): `hit` for the emitter itself, the rest spread evenly.
-  Relation<Random, Random> sensor(double hit) const { return mostly_right(reading, emitter, hit, 1.0 - hit); }
+  Relation<Random, Random> sensor(double hit) const { return symmetric_sensor(reading, emitter, hit, 1.0 - hit); }
 };
 
 /// How often a platform uses each of its emitters in a run.

@@ -1,11 +1,10 @@
 #include <map>
 
-#include <sigmax/recognition/decision.hpp>
-#include <sigmax/recognition/folds.hpp>
-
+#include "checks/table_checks.hpp"
+#include "recognition_demo/contest.hpp"
 #include "recognition_demo/cross_validation.hpp"
+#include "recognition_demo/model_file.hpp"
 #include "recognition_demo/subcommands.hpp"
-#include "recognition_demo/table_checks.hpp"
 
 namespace sigmax::apps {
 namespace {
@@ -20,7 +19,7 @@ std::string paired_by(const EvaluateOptions& options) {
 }
 
 /// Log-loss of who gives each class its share of the rows.
-double log_loss_of_shares(const DataTable& data) {
+double log_loss_of_shares(const LabelledTable& data) {
   return sum_of(data.rows_of_class, [&](std::size_t rows) {
     const double share = static_cast<double>(rows) / static_cast<double>(data.size());
     return -share * std::log(share);
@@ -32,7 +31,7 @@ double excluded(const Outcome& outcome, std::size_t foldings) {
   return static_cast<double>(outcome.excluded) / static_cast<double>(foldings);
 }
 
-ResultTable outcomes_table(const DataTable& data, const Results& results, std::size_t foldings) {
+ResultTable outcomes_table(const LabelledTable& data, const Results& results, std::size_t foldings) {
   ResultTable table;
   for (std::size_t i = 0; i < results.outcomes.size(); ++i) {
     const Outcome& outcome = results.outcomes[i];
@@ -67,7 +66,7 @@ ResultTable outcomes_table(const DataTable& data, const Results& results, std::s
 constexpr std::array<std::size_t, 2> shown_in_full = {0, 1};
 
 /// Recall and precision of each class, by the classifiers that are shown in full.
-ResultTable classes_table(const DataTable& data, const Results& results) {
+ResultTable classes_table(const LabelledTable& data, const Results& results) {
   ResultTable table;
   for (std::size_t c = 0; c < data.classes.size(); ++c) {
     std::vector<Field> row = {{of_words("class", "class"), data.classes[c]},
@@ -95,7 +94,7 @@ ResultTable classes_table(const DataTable& data, const Results& results) {
   return table;
 }
 
-ResultTable rows_of_confusion(const DataTable& data, const Results& results, std::size_t foldings) {
+ResultTable rows_of_confusion(const LabelledTable& data, const Results& results, std::size_t foldings) {
   auto table = ResultTable::of_keys({"classifier", "truth", "decision", "rows"});
   for (const Outcome& outcome : results.outcomes)
     for (std::size_t truth = 0; truth < data.classes.size(); ++truth)
@@ -106,28 +105,27 @@ ResultTable rows_of_confusion(const DataTable& data, const Results& results, std
 }
 
 /// predictions.csv: belief and decision for every row and classifier, fold after fold of the first folding.
-void write_predictions(const DataTable& data, const Deal& deal, const EvaluateOptions& options, ResultFiles& files) {
+void write_predictions(const LabelledTable& data, const Results& results, const EvaluateOptions& options,
+                       ResultFiles& files) {
   std::vector<std::string> keys = {"line", "fold", "truth", "classifier", "decision"};
   keys.insert(keys.end(), data.classes.begin(), data.classes.end());
   RowFile file(files, "predictions.csv", keys);
   std::mt19937_64 generator(options.seed);
-  const Folds folds = deal(generator);
-  for (std::size_t fold = 0; fold < options.folds; ++fold) {
-    const TaughtFold taught_fold = taught(data, folds, fold, options.learning);
-    for (std::size_t i = 0; i < taught_fold.contestants.size(); ++i)
-      classify_rows(data, folds, taught_fold, i, i + 1, [&](std::size_t row, std::size_t, const Judged& by) {
-        of_kind(by.belief, [&](const auto& belief) {
-          std::vector<Cell> cells = {data.lines[row], fold + 1, data.classes[data.labels[row]],
-                                     taught_fold.contestants[i].name, data.classes[decide(belief).pattern]};
-          for (std::size_t c = 0; c < belief.size(); ++c) cells.emplace_back(belief[c]);
-          file.write(cells);
-        });
-      });
-  }
+  const Folds folds = divided(data, results.groups, options.folds, generator);
+  for (std::size_t fold = 0; fold < options.folds; ++fold)
+    for (const TableClassifier& by : taught(data, folds, fold, options.learning))
+      for (std::size_t row = 0; row < data.size(); ++row) {
+        if (folds[row] != fold) continue;
+        const TablePrediction found = by.predict(by.readings(data.columns, row));
+        std::vector<Cell> cells = {data.lines[row], fold + 1, data.classes[data.labels[row]], std::string(by.name()),
+                                   found.label};
+        for (const double value : numbers_of(found.belief)) cells.emplace_back(value);
+        file.write(cells);
+      }
 }
 
 /// Throws unless every class can be learned whichever fold is left out.
-void refuse_rare_classes(const DataTable& data) {
+void refuse_rare_classes(const LabelledTable& data) {
   std::map<std::size_t, std::string> rare;  // by class
   for (std::size_t row = 0; row < data.size(); ++row)
     if (const std::size_t c = data.labels[row]; data.rows_of_class[c] < 2)
@@ -141,7 +139,7 @@ void refuse_rare_classes(const DataTable& data) {
 
 /// Which classifier to use: sigma, unless another one is right more often beyond its interval; none of them where the
 /// most frequent class alone is, beyond chance.
-std::string advice(const DataTable& data, const Results& results, const EvaluateOptions& options) {
+std::string advice(const LabelledTable& data, const Results& results, const EvaluateOptions& options) {
   const auto rows = static_cast<double>(data.size());
   const auto most = std::ranges::max_element(data.rows_of_class);
   const double baseline = static_cast<double>(*most) / rows;
@@ -162,7 +160,7 @@ std::string advice(const DataTable& data, const Results& results, const Evaluate
       100.0 * by.mean, 100.0 * by.half_width);
 }
 
-void say_scores(const DataTable& data, const Results& results, const EvaluateOptions& options, Result& result) {
+void say_scores(const LabelledTable& data, const Results& results, const EvaluateOptions& options, Result& result) {
   result.say("{}: {}\n{}, {}seed {}; {}", data.file, described(data), described_folds(options),
              options.foldings == 1 ? "" : fmt::format("in {} foldings, ", options.foldings), options.seed,
              described(options.learning));
@@ -184,7 +182,7 @@ void say_scores(const DataTable& data, const Results& results, const EvaluateOpt
 }
 
 /// Rows of the data by true and decided class.
-HeatMap confusion_map(const DataTable& data, const Outcome& outcome, std::size_t foldings) {
+HeatMap confusion_map(const LabelledTable& data, const Outcome& outcome, std::size_t foldings) {
   HeatMap map{.title = outcome.name,
               .row_label = "true class",
               .column_label = "decided class",
@@ -227,7 +225,7 @@ LineChart reliability_chart(const Outcome& outcome, std::size_t foldings) {
 }
 
 /// Confusion matrices and reliability side by side, and what was learned of all rows.
-void fill(Report& page, const DataTable& data, const Results& results, const EvaluateOptions& options) {
+void fill(Report& page, const LabelledTable& data, const Results& results, const EvaluateOptions& options) {
   page.verdict.insert(page.verdict.begin(),
                       fmt::format("{}. {}, {} foldings, seed {}; {}.", described(data), described_folds(options),
                                   options.foldings, options.seed, described(options.learning)));
@@ -242,25 +240,21 @@ void fill(Report& page, const DataTable& data, const Results& results, const Eva
   page.panels.emplace_back(ReportTable{"Classes", classes_table(data, results)});
   for (const Outcome& outcome : results.outcomes)
     page.panels.emplace_back(reliability_chart(outcome, options.foldings));
-  page.last = relation_maps(learned_relations(learn(data, options.learning).counts, options.learning.smoothing), 6);
+  const auto model = TableModel::fit(data.columns, {data.label, data.classes}, data.labels, options.learning);
+  page.last = relation_maps(learned_relations(model.counts, options.learning.smoothing), 6);
 }
 
 void run_evaluate(const EvaluateOptions& options) {
   refuse_to_overwrite(options.output, {options.file}, {"predictions.csv", "confusion.csv"});
   ResultFiles files(options.output);
-  const DataTable data = read_data(options.file, options.data, options.output.quiet);
+  const LabelledTable data = read_table(options.file, options.data, options.output.quiet);
   print_findings(data);
   if (options.folds > data.size())
     throw InputError("{}: found {} rows, expected at least as many as the {} folds", data.file, data.size(),
                      options.folds);
   refuse_rare_classes(data);
   const auto groups = options.groups.empty() ? std::nullopt : std::optional(groups_of(data, options.groups));
-  const Deal deal = [&](std::mt19937_64& generator) {
-    return groups ? grouped_folds(data, *groups, options.folds, generator)
-                  : stratified_folds(data.labels, options.folds, generator);
-  };
-  Results results = cross_validated(data, deal, options);
-  results.groups = groups;
+  const Results results = cross_validated(data, groups, options);
   Result result = result_of_contest("Cross-validation of " + data.file, options.output);
   result.facts("file", data.file, "rows", data.size(), "classes", data.classes, "folds", options.folds, "foldings",
                options.foldings, "seed", options.seed, "smoothing", options.learning.smoothing, "misread",
@@ -273,7 +267,7 @@ void run_evaluate(const EvaluateOptions& options) {
                       bin.upper);
   result.add(rows_of_confusion(data, results, options.foldings), {.printed = false, .csv = "confusion.csv"});
   if (!options.groups.empty()) result.fact({"groups"}, options.groups);
-  if (files.wanted()) write_predictions(data, deal, options, files);
+  if (files.wanted()) write_predictions(data, results, options, files);
   if (files.report_wanted()) fill(result.page, data, results, options);
   result.publish(files);
 }

@@ -1,7 +1,9 @@
+#include "recognition_demo/model_file.hpp"
 
-#include "recognition_demo/learned_model.hpp"
 #include "shell/input.hpp"
 #include "shell/json.hpp"
+#include "shell/output.hpp"
+#include "shell/text.hpp"
 
 namespace sigmax::apps {
 namespace {
@@ -58,12 +60,13 @@ struct Node {
   }
 };
 
-std::vector<std::string> names(const Node& node, std::string_view of_what) {
+/// Names that differ: these, or what stands at a key of each.
+std::vector<std::string> names(const Node& node, std::string_view of_what, const char* key = nullptr) {
   std::vector<std::string> result;
-  std::set<std::string> seen;
   for (const Node& each : node.list(of_what)) {
-    result.push_back(each.text());
-    if (!seen.insert(result.back()).second) throw each.error("names that differ");
+    const Node name = key ? each.at(key) : each;
+    if (std::ranges::find(result, name.text()) != result.end()) throw name.error("names that differ");
+    result.push_back(name.text());
   }
   if (result.empty()) throw node.error("at least one name");
   return result;
@@ -71,22 +74,22 @@ std::vector<std::string> names(const Node& node, std::string_view of_what) {
 
 double count(const Node& node) { return node.number(0.0, 0x1p53, "a count that is not negative"); }
 
-FeatureCode feature_code(const Node& node) {
-  FeatureCode code{.name = node.at("name").text()};
-  code.missing_is_value = node.has("missing_is_value") && node.at("missing_is_value").boolean();
+TableFeature feature_of(const Node& node) {
+  TableFeature feature{.name = node.at("name").text()};
+  feature.missing_is_value = node.has("missing_is_value") && node.at("missing_is_value").boolean();
   if (!node.has("cuts")) {
-    code.values = names(node.at("values"), "values");
-    if (code.missing_is_value && std::ranges::find(code.values, "missing") != code.values.end())
+    feature.words = names(node.at("values"), "values");
+    if (feature.missing_is_value && feature.find("missing"))
       throw node.at("values").error("no value 'missing' beside missing_is_value");
-    return code;
+    return feature;
   }
   std::vector<double> cuts;
   for (const Node& each : node.at("cuts").list("numbers")) {
     cuts.push_back(each.number());
     if (cuts.size() > 1 && cuts[cuts.size() - 2] >= cuts.back()) throw each.error("cuts in ascending order");
   }
-  code.bins = Discretization{cuts};
-  return code;
+  feature.bins = Discretization{cuts};
+  return feature;
 }
 
 Json parsed(const std::filesystem::path& path) {
@@ -116,25 +119,24 @@ Json parsed(const std::filesystem::path& path) {
 
 }  // namespace
 
-void write_model(const LearnedModel& model, std::span<const std::string> kinds, const std::filesystem::path& path) {
-  const Counts& counts = model.counts;
+void write_model(const SavedModel& saved, const std::filesystem::path& path) {
+  const auto& [features, counts, options] = saved.model;
   Json json = {{"format", format_name},
                {"version", format_version},
-               {"label", model.label},
-               {"kinds", kinds},
-               {"smoothing", model.options.smoothing},
-               {"misread", model.options.misread},
-               {"equal_prior", model.options.equal_prior}};
-  if (!model.missing.empty()) json["missing"] = model.missing;
+               {"label", counts.pattern().name()},
+               {"kinds", saved.kinds},
+               {"smoothing", options.smoothing},
+               {"misread", options.misread},
+               {"equal_prior", options.equal_prior}};
+  if (!saved.missing.empty()) json["missing"] = saved.missing;
   for (std::size_t c = 0; c < counts.pattern().size(); ++c)
     json["classes"].push_back({{"name", counts.pattern().label(c)}, {"rows", counts.rows(c)}});
-  for (std::size_t c = 0; c < model.right.size(); ++c) json["classes"][c]["right_when_left_out"] = model.right[c];
-  for (std::size_t i = 0; i < model.features.size(); ++i) {
-    const FeatureCode& code = model.features[i];
-    Json feature = {{"name", code.name}};
-    if (code.bins) feature["cuts"] = std::vector<double>(code.bins->cuts().begin(), code.bins->cuts().end());
-    if (!code.bins) feature["values"] = code.values;
-    if (code.missing_is_value) feature["missing_is_value"] = true;
+  for (std::size_t i = 0; i < features.size(); ++i) {
+    const TableFeature& one = features[i];
+    Json feature = {{"name", one.name}};
+    if (one.bins) feature["cuts"] = std::vector<double>(one.bins->cuts().begin(), one.bins->cuts().end());
+    if (!one.bins) feature["values"] = one.words;
+    if (one.missing_is_value) feature["missing_is_value"] = true;
     for (std::size_t c = 0; c < counts.pattern().size(); ++c)
       feature["counts"].push_back(std::vector<double>(counts.of(i, c).begin(), counts.of(i, c).end()));
     json["features"].push_back(feature);
@@ -149,7 +151,7 @@ void write_model(const LearnedModel& model, std::span<const std::string> kinds, 
   write_file(path, text + "\n");
 }
 
-ModelFile read_model(const std::filesystem::path& path) {
+SavedModel read_model(const std::filesystem::path& path) {
   const Json json = parsed(path);
   const Node root{json, path.native()};
   if (!root.has("format") || root.at("format").text() != format_name)
@@ -158,51 +160,37 @@ ModelFile read_model(const std::filesystem::path& path) {
     throw root.at("version").error(fmt::format("version {}", format_version),
                                    "train the model again with this program");
 
-  // Whole before they are put together: if a later part of an aggregate throws, g++ 12 destroys the earlier ones twice.
   const std::string label = root.at("label").text();
   std::vector<std::string> kinds = names(root.at("kinds"), "kinds of classifiers");
   for (const Node& kind : root.at("kinds").list("kinds"))
     if (std::ranges::find(kind_names, kind.text()) == kind_names.end())
       throw kind.error(fmt::format("one of {}", fmt::join(kind_names, ", ")));
-  LearningOptions options;
+  TableOptions options;
   options.smoothing = root.at("smoothing").number(0.0, 1e9, "a number that is not negative");
   options.misread = root.at("misread").number(0.0, 1.0, "a probability below one");
   options.equal_prior = root.at("equal_prior").boolean();
 
-  std::vector<std::string> classes;
-  std::vector<double> rows, right;
-  std::set<std::string> seen;
+  std::vector<double> rows;
+  std::vector<std::string> classes = names(root.at("classes"), "classes", "name");
   for (const Node& each : root.at("classes").list("classes")) {
-    classes.push_back(each.at("name").text());
-    if (!seen.insert(classes.back()).second) throw each.at("name").error("names that differ");
     rows.push_back(count(each.at("rows")));
     if (rows.back() == 0.0) throw each.at("rows").error("a class with at least one row");
-    if (each.has("right_when_left_out"))
-      right.push_back(each.at("right_when_left_out").number(0.0, std::nextafter(1.0, 2.0), "a share"));
   }
   if (classes.size() < 2) throw root.at("classes").error("at least two classes");
 
+  names(root.at("features"), "features", "name");
   const auto features = root.at("features").list("features");
-  if (features.empty()) throw root.at("features").error("at least one feature");
-  std::vector<FeatureCode> codes;
-  std::vector<RandomVariable> variables;
-  std::set<std::string> feature_names;
-  for (const Node& feature : features) {
-    codes.push_back(feature_code(feature));
-    if (!feature_names.insert(codes.back().name).second) throw feature.at("name").error("names that differ");
-    variables.emplace_back(codes.back().name, codes.back().labels());
-  }
-  Counts counts{RandomVariable{label, classes}, variables};
+  TableModel model{RandomVariable{label, classes}, each(features, feature_of), options};
   const std::vector<std::size_t> nothing(features.size(), missing);
-  for (std::size_t c = 0; c < classes.size(); ++c) counts.observe(c, nothing, rows[c]);
+  for (std::size_t c = 0; c < classes.size(); ++c) model.counts.observe(c, nothing, rows[c]);
   for (std::size_t i = 0; i < features.size(); ++i) {
     const auto tables = features[i].at("counts").list("rows", classes.size());
     for (std::size_t c = 0; c < classes.size(); ++c) {
-      const auto cells = tables[c].list("counts", variables[i].size());
+      const auto cells = tables[c].list("counts", model.features[i].size());
       double sum = 0.0;
       for (std::size_t f = 0; f < cells.size(); ++f) {
         const double times = count(cells[f]);
-        counts.observe_value(c, i, f, times);
+        model.counts.observe_value(c, i, f, times);
         sum += times;
       }
       if (sum > rows[c])
@@ -212,9 +200,65 @@ ModelFile read_model(const std::filesystem::path& path) {
     }
   }
   auto missing_words = root.has("missing") ? names(root.at("missing"), "words") : std::vector<std::string>();
-  if (right.size() < classes.size()) right.clear();  // models of old have none
-  LearnedModel model{label, std::move(missing_words), std::move(codes), std::move(counts), options, std::move(right)};
-  return {std::move(model), std::move(kinds)};
+  return {std::move(model), std::move(kinds), std::move(missing_words)};
+}
+
+std::vector<TableClassifier> classifiers(TableModel model, std::span<const std::string> kinds) {
+  using enum TableInference;
+  const double misread = model.options.misread;
+  for (const TableFeature& feature : model.features)
+    if (const auto n = static_cast<double>(feature.size()); n > 1.0 && n * misread > n - 1.0)
+      throw UsageError(
+          "--misread {0}: feature {1} has {2} values, so that each other one would be read more often than the right "
+          "one: give at most {3:.2f}",
+          misread, in_quotes(feature.name), n, std::floor(100.0 * (n - 1.0) / n) / 100.0);
+  const auto wanted = [&](std::string_view kind) { return std::ranges::find(kinds, kind) != kinds.end(); };
+  const TableClassifier first{std::move(model)};
+  std::vector<TableClassifier> all;
+  if (wanted("sigma")) all.push_back(first);
+  if (wanted("max")) all.insert(all.end(), {first.by(max_by_ratio), first.by(max_by_dubois_prade)});
+  if (wanted("sigma-max") && !wanted("max")) all.push_back(first.by(sigma_max_by_ratio));
+  if (wanted("sigma-max") && !(wanted("max") && misread == 0.0)) all.push_back(first.by(sigma_max_by_dubois_prade));
+  return all;
+}
+
+void add_learning(Subcommand app, std::string& file, TableReading& data, TableOptions& learning) {
+  app.option("data", file, "A headed CSV file, or - for the standard input; empty cells and ? are missing values")
+      .required()
+      .type("DATA");
+  app.option("--label", data.label, "The column with the class").required().type("COLUMN");
+  app.list("--categorical", data.categorical, "Columns to take as words although they hold numbers, or all")
+      .type("COLUMN,…|all");
+  app.list("--ignore", data.ignore, "Columns to leave out").type("COLUMN,…");
+  app.list("--missing", data.missing,
+           "Words that are missing values; - NA N/A nan null inf are so in columns of numbers")
+      .type("WORD,…");
+  app.list("--missing-value", data.missing_value, "Columns of which a missing cell is a value of its own")
+      .type("COLUMN,…");
+  app.option("--bins", learning.bins, "Bins of a numeric column").in(1, 1000);
+  app.flag("--equal-width", learning.equal_width, "Bins of equal width instead of equal frequency");
+  app.option("--smoothing", learning.smoothing, "What is added to every count; 1 is Laplace's rule")
+      .number_in(0.0, 1e9);
+  app.option("--misread", learning.misread,
+             "Probability that a reading is not the feature's value but one of the others")
+      .number_in(0.0, 0.999);
+  app.flag("--equal-prior", learning.equal_prior,
+           "Every class is equally plausible before, whatever its share of the rows");
+}
+
+std::string described(const LabelledTable& data) {
+  const auto features = data.columns.size();
+  const auto numeric = std::ranges::count_if(data.columns, [](const auto& c) { return c.numeric(); });
+  return fmt::format("{} rows, {} classes, {} {} ({} categorical, {} numeric)", data.size(), data.classes.size(),
+                     features, features == 1 ? "feature" : "features", static_cast<long>(features) - numeric, numeric);
+}
+
+std::string described(const TableOptions& options) {
+  std::string text = options.smoothing == 1.0 ? std::string("counts smoothed by Laplace's rule")
+                                              : fmt::format("{} added to every count", options.smoothing);
+  text += options.equal_prior ? "; every class equally plausible before" : "; prior by the classes' shares of the rows";
+  if (options.misread > 0.0) text += fmt::format("; a reading is wrong with probability {}", options.misread);
+  return text;
 }
 
 }  // namespace sigmax::apps

@@ -92,4 +92,6 @@
 #include <sigmax/recognition/folds.hpp>
 #include <sigmax/recognition/reliability.hpp>
 #include <sigmax/recognition/report.hpp>
+#include <sigmax/recognition/table_classifier.hpp>
+#include <sigmax/recognition/table_model.hpp>
 #include <sigmax/recognition/triangle.hpp>

@@ -316,19 +316,6 @@ TEST_F(RecognitionDemoLearning, WordsThatDifferInCaseArePointedOut) {
   EXPECT_TRUE(says(learned.output, {"column 'flag': 'TRUE' and 'True' differ in writing only"}));
 }
 
-TEST_F(RecognitionDemoLearning, NumbersInAnotherUnitArePointedOut) {
-  const auto rooms = [](int rows, double factor) {
-    std::string text = "warmth,kind\n";
-    for (int k = 0; k < rows; ++k) text += fmt::format("{},{}\n", factor * (15 + k % 11), k % 2 ? "a" : "b");
-    return text;
-  };
-  train(rooms(110, 1.0));
-  for (const double factor : {1.8, 0.1})
-    EXPECT_TRUE(says(classify(rooms(30, factor)), {"Column 'warmth': 100 % of 30 numbers are ", "in the same unit"}));
-  EXPECT_EQ(classify(rooms(30, 1.02)).find("unit"), std::string::npos);
-  EXPECT_EQ(classify(rooms(19, 1.8)).find("unit"), std::string::npos);  // too few to know
-}
-
 TEST_F(RecognitionDemoLearning, CopiesOfRowsArePointedOut) {
   std::mt19937_64 engine(5);
   const auto said = [&](const std::string& names, const std::string& rows) {

@@ -2,18 +2,18 @@
 // or an error that names the file.
 
 #include "fuzz/memory_file.hpp"
-#include "recognition_demo/learned_model.hpp"
+#include "recognition_demo/model_file.hpp"
 #include "shell/input.hpp"
 
 namespace {
 
-std::string written(const ModelFile& file, const MemoryFile& place) {
-  write_model(file.model, file.kinds, place.path());
+std::string written(const SavedModel& saved, const MemoryFile& place) {
+  write_model(saved, place.path());
   return read_text(place.path());
 }
 
 /// What classifiers are made of: each constructor proves its table.
-void check_relations(const LearnedModel& model) {
+void check_relations(const TableModel& model) {
   const auto features = model.features.size();
   require(pattern_prior(model.counts).variable().size() >= 2, "there are classes to choose from");
   require(learned_relations(model.counts, model.options.smoothing).size() == features, "a relation a feature");
@@ -27,7 +27,7 @@ void check_relations(const LearnedModel& model) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   static const MemoryFile place;
-  std::optional<ModelFile> file;
+  std::optional<SavedModel> file;
   try {
     file = read_model(place.holding({reinterpret_cast<const char*>(data), size}));
   } catch (const InputError& error) {

@@ -72,22 +72,23 @@ TYPED_SUITE(ClassifierWithFeatures, Random, Fuzzy);
 
 TYPED_PROPERTY(ClassifierWithFeatures, MultipliesWhatTheFeaturesSaySkipsWhatIsMissingAndForgetsByPowersOfTheBelief) {
   const Case<TypeParam> with;
-  auto classifier = with.classifier();
+  const auto classifier = with.classifier();
+  Belief belief{classifier.prior()};
   const double forgetting = *rc::gen::element(1.0, 0.75);
-  classifier.set_forgetting(forgetting);
   Numbers expected = with.prior;
   for (int k = 0; k < 4; ++k) {
     const Readings readings = with.any_readings();
     for (double& value : expected) value = std::pow(value, forgetting);
     expected = plain::update(by_kind<TypeParam>, expected, with.likelihood(readings));
-    classifier.observe(readings);
-    require_near(classifier.belief().values(), expected);
+    classifier.observe(belief, readings, forgetting);
+    require_near(belief.distribution().values(), expected);
   }
 }
 
 TYPED_PROPERTY(ClassifierWithFeatures, TakesCrispAndGradedFindingsInOneReport) {
   const Case<TypeParam> with;
-  auto classifier = with.classifier();
+  const auto classifier = with.classifier();
+  Belief belief{classifier.prior()};
   const Readings readings = with.any_readings();
   Report<TypeParam> report;
   Numbers likelihood(with.pattern.size(), 1.0);
@@ -103,8 +104,8 @@ TYPED_PROPERTY(ClassifierWithFeatures, TakesCrispAndGradedFindingsInOneReport) {
         likelihood[c] *= static_cast<double>(plain::evidence(by_kind<TypeParam>, with.rows[i][c], graded));
     }
   }
-  classifier.observe(report);
-  require_near(classifier.belief().values(), plain::update(by_kind<TypeParam>, with.prior, likelihood));
+  classifier.observe(belief, report);
+  require_near(belief.distribution().values(), plain::update(by_kind<TypeParam>, with.prior, likelihood));
   Numbers found(with.pattern.size());
   const auto library = classifier.likelihood(report);
   for (std::size_t c = 0; c < found.size(); ++c) found[c] = library[c];
@@ -113,15 +114,14 @@ TYPED_PROPERTY(ClassifierWithFeatures, TakesCrispAndGradedFindingsInOneReport) {
 
 TYPED_PROPERTY(ClassifierWithFeatures, InABatchIsTheSequenceForgettingIncluded) {
   const Case<TypeParam> with;
-  auto one_by_one = with.classifier(), at_once = with.classifier();
+  const auto classifier = with.classifier();
+  Belief one_by_one{classifier.prior()}, at_once = one_by_one;
   const double factor = any([](rc::Random& random) { return static_cast<double>(1 + random.next() % 8) / 8.0; });
-  one_by_one.set_forgetting(factor);
-  at_once.set_forgetting(factor);
   std::vector<Readings> reports;
   for (int k = 0; k < 7; ++k) reports.push_back(with.any_readings());
-  for (const Readings& readings : reports) one_by_one.observe(readings);
-  at_once.observe_all(reports);
-  require_near(at_once.log_belief().logs(), one_by_one.log_belief().logs());
+  for (const Readings& readings : reports) classifier.observe(one_by_one, readings, factor);
+  classifier.observe_all(at_once, reports, factor);
+  require_near(at_once.logs(), one_by_one.logs());
 }
 
 /// Many reports for one pattern and as many for the other end where they began, however they are split into batches.
@@ -129,44 +129,43 @@ TYPED_TEST(ClassifierWithFeatures, AsManyReportsForOnePatternAsForTheOtherEndInA
   const Variable<TypeParam> pattern{"pattern", 2}, feature{"feature", 2};
   const Rows rows = by_kind<TypeParam> == By::sum ? Rows{{0.9, 0.1}, {0.1, 0.9}} : Rows{{1.0, 0.1}, {0.1, 1.0}};
   for (const std::size_t n : {1U, 17U, 1000U, 50000U}) {
-    Classifier classifier{uninformative(pattern), Relation{feature, pattern, rows}};
-    classifier.observe_all(std::vector<Readings>(n, Readings{0}));
-    classifier.observe_all(std::vector<Readings>(n, Readings{1}));
-    EXPECT_NEAR(classifier.log_belief().log(0), classifier.log_belief().log(1), tie_tolerance) << n;
-    classifier.reset();
+    const Classifier classifier{uninformative(pattern), Relation{feature, pattern, rows}};
+    Belief belief{classifier.prior()}, at_once = belief;
+    classifier.observe_all(belief, std::vector<Readings>(n, Readings{0}));
+    classifier.observe_all(belief, std::vector<Readings>(n, Readings{1}));
+    EXPECT_NEAR(belief.log(0), belief.log(1), tie_tolerance) << n;
     std::vector<Readings> mixed(n, Readings{0});
     mixed.resize(2 * n, Readings{1});
-    classifier.observe_all(mixed);
-    EXPECT_NEAR(classifier.log_belief().log(0), classifier.log_belief().log(1), tie_tolerance) << n;
+    classifier.observe_all(at_once, mixed);
+    EXPECT_NEAR(at_once.log(0), at_once.log(1), tie_tolerance) << n;
   }
 }
 
 TEST(Classifier, TakesAListOfReadings) {
   const RandomVariable pattern{"pattern", 2}, feature{"feature", 2};
   const Relation relation{feature, pattern, {{0.75, 0.25}, {0.25, 0.75}}};
-  Classifier one{uninformative(pattern), relation};
-  one.observe({1});
-  EXPECT_CLOSE(one.belief().values(), (Numbers{0.25, 0.75}), 1e-15);
-  Classifier two{uninformative(pattern), std::vector{relation, relation}};
-  two.observe({1, missing});
-  EXPECT_CLOSE(two.belief().values(), (Numbers{0.25, 0.75}), 1e-15);
-  EXPECT_THROW(two.observe({1}), std::invalid_argument);
+  const Classifier one{uninformative(pattern), relation};
+  Belief belief{one.prior()};
+  one.observe(belief, {1});
+  EXPECT_CLOSE(belief.distribution().values(), (Numbers{0.25, 0.75}), 1e-15);
+  const Classifier two{uninformative(pattern), std::vector{relation, relation}};
+  EXPECT_CLOSE(two.posterior({1, missing}).distribution().values(), (Numbers{0.25, 0.75}), 1e-15);
+  EXPECT_THROW(two.posterior({1}), std::invalid_argument);
 }
 
 TEST(Classifier, TakesAListOfFindings) {
   const RandomVariable pattern{"pattern", 2}, feature{"feature", 2};
   const Relation relation{feature, pattern, {{0.75, 0.25}, {0.25, 0.75}}};
   const Likelihood graded{feature, {0.5, 1.0}};
-  Classifier plain{uninformative(pattern), relation}, listed = plain, twice = plain;
-  plain.observe(graded);
-  listed.observe({graded});
-  twice.observe({{graded}});
-  EXPECT_EQ(listed.belief(), plain.belief());
-  EXPECT_EQ(twice.belief(), plain.belief());
-  Classifier two{uninformative(pattern), std::vector{relation, relation}};
-  two.observe({graded, std::size_t{1}});
-  plain.observe({1});
-  EXPECT_CLOSE(two.belief().values(), plain.belief().values(), 1e-15);
+  const Classifier one{uninformative(pattern), relation};
+  Belief plain{one.prior()}, listed = plain, both = plain;
+  one.observe(plain, graded);
+  one.observe(listed, {graded});
+  EXPECT_EQ(listed.distribution(), plain.distribution());
+  const Classifier two{uninformative(pattern), std::vector{relation, relation}};
+  two.observe(both, {graded, std::size_t{1}});
+  one.observe(plain, {1});
+  EXPECT_CLOSE(both.distribution().values(), plain.distribution().values(), 1e-15);
 }
 
 /// A pattern that no feature reaches had an uninformative row, and under maxima was fully possible for ever.
@@ -177,14 +176,14 @@ TYPED_TEST(ClassifierWithFeatures, APatternThatNoFeatureReachesIsImpossible) {
   const Relation<Kind, Kind> pattern_given_feature{pattern, feature, {{1.0, 0.0, 0.0}, {half, half, 0.0}}};
   const auto inverse = invert(pattern_given_feature, uninformative(feature));
   ASSERT_EQ(inverse.unreachable, std::vector<std::size_t>{2});
-  Classifier<Kind, Kind> classifier{uninformative(pattern), inverse};
+  const Classifier<Kind, Kind> classifier{uninformative(pattern), inverse};
   EXPECT_EQ(classifier.prior()[2], 0.0);
-  classifier.observe({1});
-  EXPECT_EQ(classifier.belief()[2], 0.0);
+  EXPECT_EQ(classifier.posterior({1})[2], 0.0);
 
-  Classifier<Kind, Kind> predicted{uninformative(pattern), inverse.relation};
-  predicted.observe_predicted(Likelihood{feature, {0.5, 1.0}}, pattern_given_feature, uninformative(feature));
-  EXPECT_EQ(predicted.belief()[2], 0.0);
+  const Classifier<Kind, Kind> predicted{uninformative(pattern), inverse.relation};
+  Belief belief{predicted.prior()};
+  predicted.observe_predicted(belief, Likelihood{feature, {0.5, 1.0}}, pattern_given_feature, uninformative(feature));
+  EXPECT_EQ(belief[2], 0.0);
 }
 
 template <class Kind>
@@ -201,6 +200,7 @@ TYPED_PROPERTY(ClassifierWithFeatures, WithThePredictedFeatureIsThePrintedRecurs
   const Numbers prior = moderate_distribution(by, pattern.size());
   Classifier classifier{Distribution{pattern, prior},
                         Relation{feature, pattern, moderate_rows(by, pattern.size(), feature.size())}};  // not used
+  Belief belief{classifier.prior()};
   Numbers expected = prior;
   for (int k = 0; k < 3; ++k) {
     const Numbers prediction = moderate_distribution(by, feature.size()), report = moderate_numbers(feature.size());
@@ -208,9 +208,9 @@ TYPED_PROPERTY(ClassifierWithFeatures, WithThePredictedFeatureIsThePrintedRecurs
     for (const Numbers& row : plain::invert(by, pattern_given_feature, prediction))  // (43), (46)
       likelihood.push_back(static_cast<double>(plain::evidence(by, row, report)));   // (42), (45)
     expected = plain::update(by, expected, likelihood);                              // (41), (44)
-    classifier.observe_predicted(Likelihood{feature, report}, Relation{pattern, feature, pattern_given_feature},
+    classifier.observe_predicted(belief, Likelihood{feature, report}, Relation{pattern, feature, pattern_given_feature},
                                  Distribution{feature, prediction});
-    require_near(classifier.belief().values(), expected);
+    require_near(belief.distribution().values(), expected);
   }
 }
 
@@ -223,12 +223,13 @@ TYPED_PROPERTY(ClassifierWithFeatures, ThePriorCancelsIfTheFeatureCarriesAllThat
   Numbers of_feature = moderate_distribution(by, feature.size());
   Classifier classifier{Distribution{pattern, plain::compose(by, pattern_given_feature, of_feature)},
                         Relation{feature, pattern, moderate_rows(by, pattern.size(), feature.size())}};
+  Belief belief{classifier.prior()};
   for (int k = 0; k < 3; ++k) {
     const Numbers report = moderate_numbers(feature.size());
-    classifier.observe_predicted(Likelihood{feature, report}, Relation{pattern, feature, pattern_given_feature},
+    classifier.observe_predicted(belief, Likelihood{feature, report}, Relation{pattern, feature, pattern_given_feature},
                                  Distribution{feature, of_feature});
     of_feature = plain::update(by, of_feature, report);
-    require_near(classifier.belief().values(), plain::compose(by, pattern_given_feature, of_feature));
+    require_near(belief.distribution().values(), plain::compose(by, pattern_given_feature, of_feature));
   }
 }
 
@@ -240,30 +241,33 @@ TYPED_TEST(ClassifierWithFeatures, SurvivesAMillionReports) {
                               : Rows{{1, 0.5, 0.5}, {0.5, 1, 0.5}, {0.125, 0.125, 1}};
   Classifier classifier{uninformative(pattern),
                         std::vector{Relation{hair, pattern, of_hair}, Relation{legs, pattern, of_legs}}};
+  Belief belief{classifier.prior()};
   std::mt19937_64 generator(1);
   std::vector<long double> sums(3, 0.0L);
   for (int k = 0; k < 1000000; ++k) {
     const std::size_t h = generator() % 3, l = generator() % 4;  // the last of each: missing
-    classifier.observe(Readings{h == 2 ? missing : h, l == 3 ? missing : l});
+    classifier.observe(belief, Readings{h == 2 ? missing : h, l == 3 ? missing : l});
     for (std::size_t c = 0; c < 3; ++c)
       sums[c] += (h == 2 ? 0.0L : std::log(static_cast<long double>(of_hair[c][h]))) +
                  (l == 3 ? 0.0L : std::log(static_cast<long double>(of_legs[c][l])));
   }
   const long double greatest = *std::max_element(sums.begin(), sums.end());
   for (std::size_t c = 0; c < 3; ++c)  // the losers are far below any double
-    EXPECT_CLOSE(classifier.log_belief().log(c), static_cast<double>(sums[c] - greatest), 1e-9);
-  EXPECT_LT(classifier.log_belief().log(2), -10000.0);
+    EXPECT_CLOSE(belief.log(c), static_cast<double>(sums[c] - greatest), 1e-9);
+  EXPECT_LT(belief.log(2), -10000.0);
 }
 
 TYPED_TEST(ClassifierWithFeatures, IsLeftAsItWasByABatchThatExcludesEveryPattern) {
   const Variable<TypeParam> pattern{"pattern", 2}, feature{"feature", 2};
   Classifier classifier{uninformative(pattern), Relation{feature, pattern, Rows{{1.0, 0.0}, {0.0, 1.0}}}};
-  classifier.set_forgetting(0.5);
-  EXPECT_REFUSED(std::domain_error, ("'pattern'"), classifier.observe_all(std::vector<Readings>{{0}, {1}}));
-  EXPECT_CLOSE(classifier.belief().values(), uninformative(pattern).values(), 0.0);
-  classifier.observe(Readings{1});
-  EXPECT_THROW(classifier.observe(Readings{0}), std::domain_error);  // forgetting does not bring back what is excluded
-  EXPECT_EQ(classifier.belief()[1], 1.0);
+  Belief belief{classifier.prior()};
+  EXPECT_REFUSED(std::domain_error, ("'pattern'"),
+                 classifier.observe_all(belief, std::vector<Readings>{{0}, {1}}, 0.5));
+  EXPECT_CLOSE(belief.distribution().values(), uninformative(pattern).values(), 0.0);
+  classifier.observe(belief, Readings{1}, 0.5);
+  // Forgetting does not bring back what is excluded.
+  EXPECT_THROW(classifier.observe(belief, Readings{0}, 0.5), std::domain_error);
+  EXPECT_EQ(belief[1], 1.0);
 }
 
 TYPED_TEST(ClassifierWithFeatures, ForgetsALongBatchWithoutLosingWhatIsExcluded) {
@@ -272,12 +276,12 @@ TYPED_TEST(ClassifierWithFeatures, ForgetsALongBatchWithoutLosingWhatIsExcluded)
                                                   : Rows{{1.0, 1.0}, {0.25, 1.0}, {1.0, 0.25}};
   const Numbers prior = by_kind<TypeParam> == By::sum ? Numbers{0.5, 0.0, 0.5} : Numbers{1.0, 0.0, 1.0};
   Classifier classifier{Distribution{pattern, prior}, Relation{feature, pattern, rows}};
-  classifier.set_forgetting(0.25);
-  classifier.observe_all(std::vector<Readings>(2000, Readings{0}));  // 0.25²⁰⁰⁰ is no double
-  EXPECT_EQ(classifier.log_belief().log(1), log_zero);
+  Belief belief{classifier.prior()};
+  classifier.observe_all(belief, std::vector<Readings>(2000, Readings{0}), 0.25);  // 0.25²⁰⁰⁰ is no double
+  EXPECT_EQ(belief.log(1), log_zero);
   // What is left of the reports is a geometric series: Σ 4⁻ᵏ = 4/3.
   const double ratio = std::pow(rows[2][0] / rows[0][0], 4.0 / 3.0);
-  EXPECT_CLOSE(classifier.belief()[2] / classifier.belief()[0], ratio, 1e-12);
+  EXPECT_CLOSE(belief[2] / belief[0], ratio, 1e-12);
 }
 
 TEST(Classifier, RefusesWhatDoesNotFit) {
@@ -290,15 +294,15 @@ TEST(Classifier, RefusesWhatDoesNotFit) {
   EXPECT_INVALID(("'animal'", "one feature"), Classifier(uninformative(animal), none));
   EXPECT_INVALID(("'animal'", "'plant'"),
                  Classifier(uninformative(animal), std::vector{legs_given_animal, milk_given_plant}));
-  Classifier classifier{uninformative(animal), std::vector{legs_given_animal, milk_given_animal}};
-  EXPECT_INVALID(("'animal'", "2", "1 findings"), classifier.observe(Readings{0}));
-  EXPECT_INVALID(("'milk'", "2"), classifier.observe(Readings{0, 2}));
-  EXPECT_INVALID(("'animal'", "2 features"), classifier.observe(Likelihood{legs}));
-  EXPECT_INVALID(("'milk'", "'legs'"), classifier.observe(Report<Random>{Likelihood{milk}, missing}));
+  const Classifier classifier{uninformative(animal), std::vector{legs_given_animal, milk_given_animal}};
+  Belief belief{classifier.prior()};
+  EXPECT_INVALID(("'animal'", "2", "1 findings"), classifier.observe(belief, Readings{0}));
+  EXPECT_INVALID(("'milk'", "2"), classifier.observe(belief, Readings{0, 2}));
+  EXPECT_INVALID(("'animal'", "2 features"), classifier.observe(belief, Likelihood{legs}));
+  EXPECT_INVALID(("'milk'", "'legs'"), classifier.observe(belief, Report<Random>{Likelihood{milk}, missing}));
   for (const double factor : {0.0, -0.5, 1.5, not_a_number})
-    EXPECT_INVALID(("(0, 1]", std::to_string(factor)), classifier.set_forgetting(factor));
-  EXPECT_EQ(classifier.forgetting(), 1.0);
-  EXPECT_CLOSE(classifier.belief().values(), (Numbers{0.5, 0.5}), 0.0);
+    EXPECT_INVALID(("(0, 1]", std::to_string(factor)), classifier.observe(belief, {0, 0}, factor));
+  EXPECT_CLOSE(belief.distribution().values(), (Numbers{0.5, 0.5}), 0.0);
 }
 
 }  // namespace classifier_features_test

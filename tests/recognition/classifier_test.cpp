@@ -20,27 +20,29 @@ TYPED_PROPERTY(ClassifierOf, OneReportThatAllowsFewFeaturesIsThePlainRecursionTo
     for (std::size_t f = 0; f < feature.size(); ++f)
       possible = possible || (prior[c] > 0.0 && rows[c][f] > 0.0 && report[f] > 0.0);
   }
-  Classifier classifier{prior, feature_given_pattern};
+  const Classifier classifier{prior, feature_given_pattern};
+  Belief belief{prior};
   const Likelihood evidence{feature, report};
   // Between the two only subnormal numbers explain the report, and the sum of their products has few digits.
   if (plain::evidence(by, numbers_of(prior.values()), likelihood) > 1e-200L) {
-    classifier.observe(evidence);
-    require_near(classifier.belief().values(), plain::update(by, numbers_of(prior.values()), likelihood));
+    classifier.observe(belief, evidence);
+    require_near(belief.distribution().values(), plain::update(by, numbers_of(prior.values()), likelihood));
   } else if (!possible) {
-    RC_ASSERT_THROWS_AS(classifier.observe(evidence), std::domain_error);
-    require_near(classifier.belief().values(), prior.values());
+    RC_ASSERT_THROWS_AS(classifier.observe(belief, evidence), std::domain_error);
+    require_near(belief.distribution().values(), prior.values());
   }
 }
 
 TYPED_TEST(ClassifierOf, AReportThatExcludesEveryPatternIsRefusedAndForgotten) {
   const Variable<TypeParam> target{"target", {"T1", "T2"}}, emitter{"emitter", {"e1", "e2", "e3"}};
   const Relation<TypeParam, TypeParam> emitter_given_target{emitter, target, {{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}}};
-  Classifier classifier{uninformative(target), emitter_given_target};
-  classifier.observe(Likelihood{emitter, {0.25, 0.125, 0.5}});
-  const Distribution before = classifier.belief();
-  EXPECT_REFUSED(std::domain_error, ("'target'"), classifier.observe(Likelihood{emitter, {0.0, 0.0, 1.0}}));
-  EXPECT_CLOSE(classifier.belief().values(), before.values(), 1e-15);
-  EXPECT_EQ(most_likely(classifier.belief()), "T1");
+  const Classifier classifier{uninformative(target), emitter_given_target};
+  Belief belief{classifier.prior()};
+  classifier.observe(belief, Likelihood{emitter, {0.25, 0.125, 0.5}});
+  const Distribution before = belief.distribution();
+  EXPECT_REFUSED(std::domain_error, ("'target'"), classifier.observe(belief, Likelihood{emitter, {0.0, 0.0, 1.0}}));
+  EXPECT_CLOSE(belief.distribution().values(), before.values(), 1e-15);
+  EXPECT_EQ(most_likely(belief), "T1");
 }
 
 template <class Prior, class FeatureGivenPattern>

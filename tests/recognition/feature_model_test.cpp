@@ -30,7 +30,7 @@ TYPED_PROPERTY(FeatureModelOf, ReadByASensorIsThePlainRecursion) {
   const auto prior = any_distribution(pattern);
   const auto feature_given_pattern = any_relation(feature, pattern);
   const auto reading_given_feature = any_relation(reading, feature);
-  Classifier classifier{prior, std::vector{FeatureModel{feature_given_pattern, reading_given_feature}}};
+  const Classifier classifier{prior, std::vector{FeatureModel{feature_given_pattern, reading_given_feature}}};
   const Rows rows = rows_of(feature_given_pattern.table()), sensor = rows_of(reading_given_feature.table());
   for (std::size_t z = 0; z < reading.size(); ++z) {
     Numbers likelihood;  // L(z|c) = ⊕ over f of L(z|f) L(f|c), where the feature's kind chooses ⊕; no β
@@ -39,13 +39,12 @@ TYPED_PROPERTY(FeatureModelOf, ReadByASensorIsThePlainRecursion) {
           static_cast<double>(plain::evidence(by_kind<typename K::Feature>, row, plain::column(sensor, z))));
     constexpr plain::By by = by_kind<typename K::Pattern>;
     if (plain::evidence(by, numbers_of(prior.values()), likelihood) <= 1e-200L) continue;  // few digits left
-    classifier.reset();
-    classifier.observe(std::vector<std::size_t>{z});
-    require_near(classifier.belief().values(), plain::update(by, numbers_of(prior.values()), likelihood));
+    require_near(classifier.posterior({z}).distribution().values(),
+                 plain::update(by, numbers_of(prior.values()), likelihood));
     // A sensor's crisp reading is the graded report of its column.
-    classifier.reset();
-    classifier.observe(reading_given_feature.likelihood(z));
-    require_near(classifier.belief().values(), plain::update(by, numbers_of(prior.values()), likelihood));
+    Belief belief{prior};
+    classifier.observe(belief, reading_given_feature.likelihood(z));
+    require_near(belief.distribution().values(), plain::update(by, numbers_of(prior.values()), likelihood));
   }
 }
 

@@ -53,50 +53,6 @@ TEST(StratifiedFolds, AreDealtByTheRawDrawsOfTheGenerator) {
   }
 }
 
-PROPERTY(FoldDealer, DealsPartsAsLevelAsAWhole) {
-  const auto n = *rc::gen::inRange<std::size_t>(2, 60);
-  const auto folds = *rc::gen::inRange<std::size_t>(2, n + 1);
-  const auto part = *rc::gen::inRange<std::size_t>(1, n + 1);
-  Labels labels(n), rows_of_label(4, 0), all(folds, 0);
-  for (auto& label : labels) ++rows_of_label[label = *rc::gen::inRange<std::size_t>(0, 4)];
-  std::vector<Labels> within(4, Labels(folds, 0));
-  std::mt19937_64 generator(n), whole(n);
-  FoldDealer dealer(rows_of_label, folds);
-  for (std::size_t first = 0; first < n; first += part) {
-    const auto rows = std::span(labels).subspan(first, std::min(part, n - first));
-    const auto fold_of = dealer.deal(rows, generator);
-    RC_ASSERT(fold_of.size() == rows.size());
-    for (std::size_t row = 0; row < rows.size(); ++row) {
-      RC_ASSERT(fold_of[row] < folds);
-      ++all[fold_of[row]];
-      ++within[rows[row]][fold_of[row]];
-    }
-    if (part == n) RC_ASSERT(fold_of == stratified_folds(labels, folds, whole));
-  }
-  RC_ASSERT(spread(all) <= 1U);
-  for (const Labels& sizes : within) RC_ASSERT(spread(sizes) <= 1U);
-}
-
-TEST(FoldDealer, DealsOnWhereThePartBeforeEnded) {
-  std::mt19937_64 generator(1);
-  FoldDealer dealer(Labels{2, 4}, 3);
-  EXPECT_EQ(dealer.deal(Labels{1}, generator), Labels{2}) << "two rows of label 0 come first, in folds 0 and 1";
-  EXPECT_EQ(dealer.deal(Labels{0, 1}, generator), (Labels{0, 0}));
-  EXPECT_EQ(dealer.deal(Labels{1}, generator), Labels{1});
-  EXPECT_EQ(dealer.deal(Labels{1, 0}, generator), (Labels{2, 1}));
-}
-
-TEST(FoldDealer, RefusesRowsThatWereNotSaid) {
-  std::mt19937_64 generator(1);
-  EXPECT_INVALID(("folds", "2", "3"), FoldDealer(Labels{2, 0}, 3));
-  EXPECT_INVALID(("at least 2", "1"), FoldDealer(Labels{2, 0}, 1));
-  FoldDealer dealer(Labels{2, 1}, 2);
-  EXPECT_INVALID(("2 labels", "2"), dealer.deal(Labels{0, 2}, generator));
-  EXPECT_INVALID(("label 1"), dealer.deal(Labels{0, 1, 1}, generator));
-  EXPECT_EQ(dealer.deal(Labels{1}, generator), Labels{0}) << "nothing was dealt of what was refused";
-  EXPECT_INVALID(("label 1"), dealer.deal(Labels{1}, generator));
-}
-
 TEST(StratifiedFolds, RefuseAnImpossibleNumber) {
   std::mt19937_64 generator(1);
   const Labels labels{0, 1, 0};

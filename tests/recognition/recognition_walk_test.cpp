@@ -26,25 +26,27 @@ TEST(RecognitionWalk, Sigma) {
   EXPECT_CLOSE(inverse.relation.row(1), (Numbers{0.4, 0.6, 0}), 1e-15);
   EXPECT_CLOSE(inverse.relation.row(2), (Numbers{2.0 / 11, 3.0 / 11, 6.0 / 11}), 1e-15);
 
-  Classifier classifier{uninformative(type), inverse};
-  classifier.observe(Likelihood{manoeuvre, {0.7, 0.2, 0.1}});
-  const Distribution belief = classifier.belief();
+  const Classifier classifier{uninformative(type), inverse};
+  Belief belief{classifier.prior()};
+  classifier.observe(belief, Likelihood{manoeuvre, {0.7, 0.2, 0.1}});
+  const Distribution p = belief.distribution();
   // (42): 0.7; 0.28 + 0.12; (1.4 + 0.6 + 0.6)/11
   const double sum = 0.7 + 0.4 + 2.6 / 11;
-  EXPECT_CLOSE(belief.values(), (Numbers{0.7 / sum, 0.4 / sum, 2.6 / 11 / sum}), 1e-14);
-  EXPECT_CLOSE(belief["airliner"], 0.524, 5e-4);
-  EXPECT_CLOSE(belief["bomber"], 0.299, 5e-4);
-  EXPECT_CLOSE(belief["fighter"], 0.177, 5e-4);
+  EXPECT_CLOSE(p.values(), (Numbers{0.7 / sum, 0.4 / sum, 2.6 / 11 / sum}), 1e-14);
+  EXPECT_CLOSE(p["airliner"], 0.524, 5e-4);
+  EXPECT_CLOSE(p["bomber"], 0.299, 5e-4);
+  EXPECT_CLOSE(p["fighter"], 0.177, 5e-4);
 }
 
 TEST(RecognitionWalk, Max) {
   const auto inverse = invert(fuzzy_type_given_manoeuvre, uninformative(fuzzy_manoeuvre));
   EXPECT_CLOSE(inverse.relation.table().values(), (Numbers{1, 0, 0, 1, 1, 0, 1, 1, 1}), 0.0);
 
-  Classifier classifier{uninformative(fuzzy_type), inverse};
-  classifier.observe(Likelihood{fuzzy_manoeuvre, {0.2, 1.0, 0.5}});
-  static_assert(std::same_as<decltype(classifier.belief()), Distribution<Fuzzy>>);
-  EXPECT_CLOSE(classifier.belief().values(), (Numbers{0.2, 1.0, 1.0}), 1e-15);
+  const Classifier classifier{uninformative(fuzzy_type), inverse};
+  Belief belief{classifier.prior()};
+  classifier.observe(belief, Likelihood{fuzzy_manoeuvre, {0.2, 1.0, 0.5}});
+  static_assert(std::same_as<decltype(belief), Belief<Fuzzy>>);
+  EXPECT_CLOSE(belief.distribution().values(), (Numbers{0.2, 1.0, 1.0}), 1e-15);
 
   const auto never = dominated_patterns(classifier);
   ASSERT_EQ(never.size(), 2U);
@@ -55,23 +57,23 @@ TEST(RecognitionWalk, Max) {
 }
 
 TEST(RecognitionWalk, SigmaMax) {
-  Classifier by_report{uninformative(platform), emitter_given_platform};
-  by_report.observe(reading_given_emitter.likelihood("e2"));
-  EXPECT_CLOSE(by_report.belief().values(), (Numbers{0.5, 1.0}), 1e-15);
+  const Classifier by_report{uninformative(platform), emitter_given_platform};
+  Belief belief{by_report.prior()};
+  by_report.observe(belief, reading_given_emitter.likelihood("e2"));
+  EXPECT_CLOSE(belief.distribution().values(), (Numbers{0.5, 1.0}), 1e-15);
 
-  Classifier classifier{uninformative(platform),
-                        std::vector{FeatureModel{emitter_given_platform, reading_given_emitter}}};
-  classifier.observe(std::vector{reading.index_of("e2")});
-  EXPECT_CLOSE(classifier.belief().values(), by_report.belief().values(), 1e-15);
+  const Classifier classifier{uninformative(platform),
+                              std::vector{FeatureModel{emitter_given_platform, reading_given_emitter}}};
+  const Belief by_index = classifier.posterior({reading.index_of("e2")});
+  EXPECT_CLOSE(by_index.distribution().values(), belief.distribution().values(), 1e-15);
 
   const Induced induced = compose(reading_given_emitter, emitter_given_platform);  // (17)
   const Distribution the_same = update(uninformative(platform), induced.likelihood("e2"));
-  EXPECT_CLOSE(the_same.values(), by_report.belief().values(), 1e-15);
+  EXPECT_CLOSE(the_same.values(), belief.distribution().values(), 1e-15);
 
   const Relation scaled = to_possibility(reading_given_emitter, RatioScale{});
-  Classifier max{uninformative(platform), std::vector{FeatureModel{emitter_given_platform, scaled}}};
-  max.observe(std::vector{reading.index_of("e2")});
-  EXPECT_CLOSE(max.belief().values(), by_report.belief().values(), 1e-15);
+  const Classifier max{uninformative(platform), std::vector{FeatureModel{emitter_given_platform, scaled}}};
+  EXPECT_CLOSE(max.posterior({reading.index_of("e2")}).distribution().values(), belief.distribution().values(), 1e-15);
 }
 
 TEST(RecognitionWalk, TheOtherMixture) {
@@ -80,14 +82,14 @@ TEST(RecognitionWalk, TheOtherMixture) {
   const Relation manoeuvre_given_type = inverse.relation;
   const Relation look_given_manoeuvre{look, manoeuvre, {{0.2, 1.0}, {1.0, 0.8}, {1.0, 0.1}}};
 
-  Classifier classifier{uninformative(type), std::vector{FeatureModel{manoeuvre_given_type, look_given_manoeuvre}}};
-  classifier.observe(std::vector{look.index_of("small")});  // π⁺ = 0.2, 0.68, (0.4 + 3 + 6)/11
+  const Classifier by_look{uninformative(type), std::vector{FeatureModel{manoeuvre_given_type, look_given_manoeuvre}}};
+  const Belief looked = by_look.posterior({look.index_of("small")});  // π⁺ = 0.2, 0.68, (0.4 + 3 + 6)/11
   const double sum = 0.2 + 0.68 + 9.4 / 11;
-  EXPECT_CLOSE(classifier.belief().values(), (Numbers{0.2 / sum, 0.68 / sum, 9.4 / 11 / sum}), 1e-14);
+  EXPECT_CLOSE(looked.distribution().values(), (Numbers{0.2 / sum, 0.68 / sum, 9.4 / 11 / sum}), 1e-14);
 
-  Classifier direct{uninformative(fuzzy_type), with_fuzzy_condition(manoeuvre_given_type)};
-  direct.observe(std::vector{manoeuvre.index_of("medium")});
-  EXPECT_CLOSE(direct.belief().values(), (Numbers{0.0, 1.0, (3.0 / 11) / 0.6}), 1e-15);
+  const Classifier direct{uninformative(fuzzy_type), with_fuzzy_condition(manoeuvre_given_type)};
+  EXPECT_CLOSE(direct.posterior({manoeuvre.index_of("medium")}).distribution().values(),
+               (Numbers{0.0, 1.0, (3.0 / 11) / 0.6}), 1e-15);
 
   const Distribution prior = to_possibility(uninformative(type), RatioScale{});
   EXPECT_CLOSE(prior.values(), (Numbers{1, 1, 1}), 0.0);
@@ -95,10 +97,12 @@ TEST(RecognitionWalk, TheOtherMixture) {
 
 TEST(RecognitionWalk, APredictionForEveryStep) {
   const Distribution prediction{manoeuvre, {0.6, 0.3, 0.1}};
-  Classifier classifier{compose(type_given_manoeuvre, prediction), invert(type_given_manoeuvre, prediction)};
+  const Classifier classifier{compose(type_given_manoeuvre, prediction), invert(type_given_manoeuvre, prediction)};
+  Belief belief{classifier.prior()};
   const Likelihood report{manoeuvre, {0.1, 0.3, 0.6}};
-  classifier.observe_predicted(report, type_given_manoeuvre, prediction);
-  EXPECT_CLOSE(classifier.belief().values(), compose(type_given_manoeuvre, update(prediction, report)).values(), 1e-14);
+  classifier.observe_predicted(belief, report, type_given_manoeuvre, prediction);
+  EXPECT_CLOSE(belief.distribution().values(), compose(type_given_manoeuvre, update(prediction, report)).values(),
+               1e-14);
 }
 
 const FuzzyVariable animal{"animal", {"cat", "hen", "frog"}};
@@ -108,20 +112,20 @@ const Relation legs_given_animal{legs, animal, {{0.0, 0.1, 1.0}, {0.0, 1.0, 0.0}
 const Relation skin_given_animal{skin, animal, {{1.0, 0.0, 0.2}, {0.1, 1.0, 0.2}, {0.0, 0.0, 1.0}}};
 
 TEST(RecognitionWalk, SeveralFeatures) {
-  Classifier classifier{uninformative(animal), std::vector{legs_given_animal, skin_given_animal}};
+  const Classifier classifier{uninformative(animal), std::vector{legs_given_animal, skin_given_animal}};
   const std::vector<std::size_t> four_legs{legs.index_of("4"), missing};
-  classifier.observe(four_legs);
-  EXPECT_CLOSE(classifier.belief().values(), (Numbers{1, 0, 1}), 0.0);
+  Belief belief = classifier.posterior(four_legs);
+  EXPECT_CLOSE(belief.distribution().values(), (Numbers{1, 0, 1}), 0.0);
   const Report<Fuzzy> graded{missing, Likelihood{skin, {0.3, 0.1, 1.0}}};
-  classifier.observe(graded);
-  EXPECT_CLOSE(classifier.belief().values(), (Numbers{0.3, 0, 1}), 1e-15);
+  classifier.observe(belief, graded);
+  EXPECT_CLOSE(belief.distribution().values(), (Numbers{0.3, 0, 1}), 1e-15);
 
-  const Decision decision = decide(classifier.log_belief());
+  const Decision decision = decide(belief);
   EXPECT_EQ(animal.label(decision.pattern), "frog");
   EXPECT_CLOSE(decision.margin, 0.7, 1e-15);
-  const auto sure_enough = decide_or_reject(classifier.log_belief(), 0.9);
+  const auto sure_enough = decide_or_reject(belief, 0.9);
   EXPECT_FALSE(sure_enough);
-  const auto order = best_patterns(classifier.log_belief(), 2);
+  const auto order = best_patterns(belief, 2);
   EXPECT_EQ(order, (std::vector<std::size_t>{2, 0}));
 
   const std::vector reports{as_report<Fuzzy>(four_legs), graded};
@@ -132,10 +136,24 @@ TEST(RecognitionWalk, SeveralFeatures) {
   EXPECT_EQ(why.contributions[1].equation,
             "L(report|animal = frog) = max over skin of L(report|skin) π(skin|animal = frog) = 1; skin = bare: 1 · 1");
 
-  classifier.reset();
-  classifier.set_forgetting(0.9);
-  classifier.observe_all(reports);
-  EXPECT_CLOSE(classifier.belief().values(), (Numbers{0.3, 0, 1}), 1e-15);
+  Belief fading{classifier.prior()};
+  classifier.observe_all(fading, reports, 0.9);
+  EXPECT_CLOSE(fading.distribution().values(), (Numbers{0.3, 0, 1}), 1e-15);
+}
+
+TEST(RecognitionWalk, ATable) {
+  testing::internal::CaptureStdout();
+  const std::vector<TableColumn> columns{{"height", {12, 31, 9, 28}}, {"leaf", {"broad", "needle", "broad", "needle"}}};
+  const auto trees = TableClassifier::fit(columns, {"tree", {"oak", "pine", "oak", "pine"}});
+  std::cout << trees.predict({30.0, "needle"}).label << '\n';
+  for (const auto& why : trees.explain({30.0, "needle"}).contributions) std::cout << why.equation << '\n';
+  EXPECT_EQ(testing::internal::GetCapturedStdout(),
+            "pine\np(height = 28 to 31|tree = pine) = 0.3333\np(leaf = needle|tree = pine) = 0.75\n");
+
+  const auto by_max = trees.by(TableInference::max_by_dubois_prade);
+  const TablePrediction unsure = by_max.predict({not_a_number, "needle"});
+  EXPECT_EQ(unsure.label, "pine");
+  EXPECT_CLOSE(unsure.margin, 0.75, 1e-14);
 }
 
 TEST(RecognitionWalk, Learning) {
@@ -149,8 +167,7 @@ TEST(RecognitionWalk, Learning) {
   Classifier max{uninformative(as_fuzzy(kind)), learned_relations(counts, 1.0, DuboisPrade{})};
   EXPECT_CLOSE(learned_relation(counts, 0, 1.0).row(0), (Numbers{0.25, 0.75}), 0.0);
   EXPECT_CLOSE(max.features()[0].relation().row(0), (Numbers{0.25, 1.0}), 0.0);
-  sigma.observe(std::vector<std::size_t>{1, 1});
-  EXPECT_CLOSE(sigma.belief()["cat"], (2.0 / 3 * 0.75 * 2 / 3) / (2.0 / 3 * 0.75 * 2 / 3 + 1.0 / 27), 1e-14);
+  EXPECT_CLOSE(sigma.posterior({1, 1})["cat"], (2.0 / 3 * 0.75 * 2 / 3) / (2.0 / 3 * 0.75 * 2 / 3 + 1.0 / 27), 1e-14);
 
   const std::vector training{3.1, 4.7, 2.2, 5.0, 3.8, 2.9};
   const Discretization bins = equal_frequency(training, 3);
@@ -182,12 +199,8 @@ TEST(RecognitionWalk, Evaluation) {
     Classifier by_max{uninformative(as_fuzzy(kind)), learned_relations(counts, 1.0, RatioScale{})};
     for (std::size_t i = 0; i < rows.size(); ++i) {
       if (fold_of[i] != fold) continue;
-      by_sum.reset();
-      by_sum.observe(rows[i]);
-      const double right = sigma.add(labels[i], by_sum.log_belief());
-      by_max.reset();
-      by_max.observe(rows[i]);
-      paired.add(right - max.add(labels[i], by_max.log_belief()));
+      const double right = sigma.add(labels[i], by_sum.posterior(rows[i]));
+      paired.add(right - max.add(labels[i], by_max.posterior(rows[i])));
     }
   }
   const double accuracy = sigma.confusion().accuracy();

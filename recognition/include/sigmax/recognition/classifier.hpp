@@ -66,17 +66,19 @@ class PairwiseSum {
 
 }  // namespace detail
 
-/// Sequential pattern recognition from reports on one or several features: sigma inference (41)–(43) if patterns and
-/// features are random, max inference (44)–(46) if they are fuzzy, sigma-max inference (17) and (19) if a random sensor
-/// reads a fuzzy feature, (18) and (20) if a fuzzy one reads a random feature; nothing else changes.
+/// Pattern recognition from reports on one or several features: sigma inference (41)–(43) if patterns and features are
+/// random, max inference (44)–(46) if they are fuzzy, sigma-max inference (17) and (19) if a random sensor reads a
+/// fuzzy feature, (18) and (20) if a fuzzy one reads a random feature; nothing else changes.
 ///
-///     Classifier classifier{uninformative(target), emitter_given_target};
-///     classifier.observe(Likelihood{emitter, {0.7, 0.1, 0.2}});        // a graded report
-///     most_likely(classifier.belief());
+///     const Classifier classifier{uninformative(target), emitter_given_target};
+///     Belief belief{classifier.prior()};
+///     classifier.observe(belief, Likelihood{emitter, {0.7, 0.1, 0.2}});        // a graded report
+///     most_likely(belief);
 ///
-///     Classifier animals{prior, std::vector{legs_given_animal, milk_given_animal}};
-///     animals.observe(std::vector<std::size_t>{2, missing});           // a crisp report on every feature
+///     const Classifier animals{prior, std::vector{legs_given_animal, milk_given_animal}};
+///     animals.posterior({2, missing});                          // of one crisp report on every feature
 ///
+/// A classifier never changes: any number of beliefs, on any thread, may share one.
 /// The kind of the pattern is that of the prior, and chooses the ⊕ that normalises; the kind of the features chooses
 /// the ⊕ that eliminates them. Features, and reports, are independent given the pattern. The static p(feature|pattern)
 /// may be built from p(pattern|feature) by `invert`, or learned from counts.
@@ -92,7 +94,7 @@ class Classifier {
   Classifier(const Distribution<Pattern>& prior, const std::vector<Relation<Feature, Pattern>>& features)
       : Classifier(prior, std::vector<FeatureModel<Pattern, Feature>>(features.begin(), features.end())) {}
   Classifier(const Distribution<Pattern>& prior, std::vector<FeatureModel<Pattern, Feature>> features)
-      : prior_(prior), features_(std::move(features)), initial_(prior), belief_(prior), faded_(prior) {
+      : prior_(prior), features_(std::move(features)), initial_(prior) {
     if (features_.empty())
       throw std::invalid_argument("a Classifier of '" + prior.variable().name() + "' needs at least one feature");
     for (const auto& feature : features_) check::same(prior.variable(), feature.pattern(), "Classifier");
@@ -105,40 +107,47 @@ class Classifier {
       : Classifier(reached(prior, inverse.unreachable), inverse.relation) {}
 
   /// Takes one report of crisp readings, an index for each feature in order or `missing`: (42) and (41), or (45) and
-  /// (44). Throws std::invalid_argument if there are not as many as features or a reading does not exist, and
-  /// std::domain_error if the report excludes every pattern that was left; the belief is then unchanged.
-  void observe(std::span<const std::size_t> readings) { observe_likelihood(likelihood(readings)); }
-  void observe(std::initializer_list<std::size_t> readings) {
-    observe(std::span<const std::size_t>(readings.begin(), readings.size()));
+  /// (44). Before it, the logarithms of the belief are multiplied by `forgetting` in (0, 1], so that old reports fade
+  /// as λⁿ, for patterns that change; an excluded pattern stays excluded.
+  ///
+  /// Throws std::invalid_argument if there are not as many readings as features, a reading does not exist, the belief
+  /// is of another variable or the factor is out of range, and std::domain_error if the report excludes every pattern
+  /// that was left; the belief is then unchanged.
+  ///
+  /// The report may be graded as a whole, findings beside readings, or a likelihood of the only feature.
+  template <class SomeReport>
+  void observe(Belief<Pattern>& belief, const SomeReport& report, double forgetting = 1.0) const {
+    prove_factor(forgetting);
+    update_faded(belief, likelihood(report), forgetting);
   }
-
-  /// The same of a report that may be graded.
-  void observe(const Report<Feature>& report) { observe_likelihood(likelihood(report)); }
-  void observe(std::initializer_list<Finding<Feature>> report) { observe(Report<Feature>(report)); }
-
-  /// The same of a graded report about the only feature. Throws std::invalid_argument if there are several.
-  void observe(const Likelihood<Feature>& report) { observe_likelihood(compose(report, only_feature().relation())); }
+  void observe(Belief<Pattern>& belief, std::initializer_list<std::size_t> readings, double forgetting = 1.0) const {
+    observe(belief, std::span<const std::size_t>(readings.begin(), readings.size()), forgetting);
+  }
+  void observe(Belief<Pattern>& belief, std::initializer_list<Finding<Feature>> report, double forgetting = 1.0) const {
+    observe(belief, Report<Feature>(report), forgetting);
+  }
 
   /// Takes several reports at once, with a single ⊕ at the end: what observing them one by one gives, to rounding.
   /// Throws as `observe` does, and the belief is then as before the first of them.
   ///
-  ///     classifier.observe_all(std::vector<std::vector<std::size_t>>{{2, missing}, {0, 1}});
+  ///     classifier.observe_all(belief, std::vector<std::vector<std::size_t>>{{2, missing}, {0, 1}});
   template <class Reports>
-  void observe_all(const Reports& reports) {
+  void observe_all(Belief<Pattern>& belief, const Reports& reports, double forgetting = 1.0) const {
     Table logs(1, prior_.size());
     double weight = 1.0;  // of what was believed before
-    if (forgetting_ == 1.0) {
+    prove_factor(forgetting);
+    if (forgetting == 1.0) {
       detail::PairwiseSum sum(prior_.size());
       for (const auto& report : reports) add_log_likelihood(report, sum.next());
       std::ranges::copy(sum.total(), logs.values().begin());
     } else {
       for (const auto& report : reports) {
-        for (double& log : logs.values()) log = faded(forgetting_, log);
+        for (double& log : logs.values()) log = faded(forgetting, log);
         add_log_likelihood(report, logs.values());
-        weight *= forgetting_;
+        weight *= forgetting;
       }
     }
-    observe_likelihood({prior_.variable(), std::move(logs), detail::ByLaw{}}, weight);
+    update_faded(belief, {prior_.variable(), std::move(logs), detail::ByLaw{}}, weight);
   }
 
   /// Takes a graded report with p(f_k|z_{1:k−1}) supplied for this step, as (43) and (46) are printed: p(f_k|c) is
@@ -147,38 +156,32 @@ class Classifier {
   /// If `feature_prediction` is all that is known of the pattern, that is if the belief is p(c|f_k) composed with it,
   /// then the belief cancels: afterwards it is p(c|f_k) composed with the updated prediction, and no evidence
   /// accumulates but through the prediction. A pattern that the prediction does not reach is excluded.
-  void observe_predicted(const Likelihood<Feature>& report, const Relation<Pattern, Feature>& pattern_given_feature,
-                         const Distribution<Feature>& feature_prediction) {
+  void observe_predicted(Belief<Pattern>& belief, const Likelihood<Feature>& report,
+                         const Relation<Pattern, Feature>& pattern_given_feature,
+                         const Distribution<Feature>& feature_prediction) const {
     check::same(prior_.variable(), pattern_given_feature.to(), "Classifier");
     const auto inverse = invert(pattern_given_feature, feature_prediction);
     auto likelihood_of_patterns = compose(report, inverse.relation);
     for (const std::size_t c : inverse.unreachable) likelihood_of_patterns.set_log(c, log_zero);
-    observe_likelihood(likelihood_of_patterns);
+    update(belief, likelihood_of_patterns, belief);
+  }
+
+  /// What is believed after one report alone. Throws as `observe` does.
+  Belief<Pattern> posterior(std::span<const std::size_t> readings) const {
+    Belief<Pattern> belief = initial_;
+    observe(belief, readings);
+    return belief;
+  }
+  Belief<Pattern> posterior(std::initializer_list<std::size_t> readings) const {
+    return posterior(std::span<const std::size_t>(readings.begin(), readings.size()));
   }
 
   /// How well each pattern explains one report, L(z|c), whatever was believed: (42), (45), (17), (18).
   Likelihood<Pattern> likelihood(std::span<const std::size_t> readings) const { return likelihood_of(readings); }
   Likelihood<Pattern> likelihood(const Report<Feature>& report) const { return likelihood_of(report); }
-
-  /// What is believed of the pattern after all reports.
-  Distribution<Pattern> belief() const { return belief_.distribution(); }
-
-  /// The same as logarithms, where nothing underflows: what decisions and scores are made from.
-  const Belief<Pattern>& log_belief() const& { return belief_; }
-  Belief<Pattern> log_belief() const&& { return belief_; }
-
-  /// Forgets all reports: the belief is the prior again.
-  void reset() { belief_ = initial_; }
-
-  /// From now on multiplies the logarithms of the belief by λ in (0, 1] before every report, so that old reports fade
-  /// as λⁿ, for patterns that change. One, the default, forgets nothing; an excluded pattern stays excluded. Throws
-  /// std::invalid_argument, with the factor, if it is not in (0, 1].
-  void set_forgetting(double factor) {
-    if (!(factor > 0.0 && factor <= 1.0))
-      throw std::invalid_argument("a forgetting factor is in (0, 1], not " + std::to_string(factor));
-    forgetting_ = factor;
+  Likelihood<Pattern> likelihood(const Likelihood<Feature>& report) const {
+    return compose(report, only_feature().relation());
   }
-  double forgetting() const { return forgetting_; }
 
   const Distribution<Pattern>& prior() const& { return prior_; }
   Distribution<Pattern> prior() const&& { return prior_; }
@@ -252,22 +255,21 @@ class Classifier {
     return {prior_.variable(), std::move(logs), detail::ByLaw{}};
   }
 
-  void observe_likelihood(const Likelihood<Pattern>& report) { observe_likelihood(report, forgetting_); }
-  void observe_likelihood(const Likelihood<Pattern>& report, double weight_of_belief) {
-    if (weight_of_belief == 1.0) {
-      update(belief_, report, belief_);
-    } else {
-      faded_.assign([&](std::size_t c) { return faded(weight_of_belief, belief_.log(c)); });
-      update(faded_, report, belief_);
-    }
+  static void prove_factor(double factor) {
+    if (!(factor > 0.0 && factor <= 1.0))
+      throw std::invalid_argument("a forgetting factor is in (0, 1], not " + std::to_string(factor));
+  }
+
+  static void update_faded(Belief<Pattern>& belief, const Likelihood<Pattern>& report, double weight) {
+    if (weight == 1.0) return void(update(belief, report, belief));
+    Belief<Pattern> left = belief;
+    left.assign([&](std::size_t c) { return faded(weight, belief.log(c)); });
+    update(left, report, belief);
   }
 
   Distribution<Pattern> prior_;
   std::vector<FeatureModel<Pattern, Feature>> features_;
   Belief<Pattern> initial_;  // the prior as logarithms
-  Belief<Pattern> belief_;
-  Belief<Pattern> faded_;  // what is left of the belief before the next report
-  double forgetting_ = 1.0;
 };
 
 }  // namespace sigmax

@@ -46,7 +46,7 @@ class ConfusionMatrix {
 ///     Evaluation<Random> sums{animal};
 ///     Evaluation<Fuzzy> maxima{as_fuzzy(animal)};
 ///     RunningMean difference;
-///     for (…) difference.add(maxima.add(truth, max.log_belief()) - sums.add(truth, sigma.log_belief()));
+///     for (…) difference.add(maxima.add(truth, max.posterior(row)) - sums.add(truth, sigma.posterior(row)));
 ///     sums.confusion().accuracy();
 ///     difference.interval();   // paired by case
 ///

@@ -110,21 +110,22 @@ Contribution contribution(const FeatureModel<Pattern, Feature>& feature, const F
   return result;
 }
 
-/// Why a classifier that observed these reports prefers `pattern` to `rival`, report by report and feature by feature.
+/// Why a classifier that observed these reports, each with this forgetting factor, prefers `pattern` to `rival`, report
+/// by report and feature by feature.
 ///
-///     const auto best = best_patterns(classifier.log_belief(), 2);
+///     const auto best = best_patterns(belief, 2);
 ///     for (const auto& row : explain(classifier, reports, best[0], best[1]).contributions) …
 ///
 /// Throws std::invalid_argument as `observe` does, or if there is no such pattern.
 template <Uncertainty Pattern, Uncertainty Feature>
 PatternExplanation explain(const Classifier<Pattern, Feature>& classifier, std::span<const Report<Feature>> reports,
-                           std::size_t pattern, std::size_t rival) {
+                           std::size_t pattern, std::size_t rival, double forgetting = 1.0) {
   classifier.prior().variable().label(pattern);
   classifier.prior().variable().label(rival);
   const double log_prior = std::log(classifier.prior()[pattern]);
   const double rival_log_prior = std::log(classifier.prior()[rival]);
   const auto weight = [&](std::size_t report) {  // of what was said before the reports after it
-    return std::pow(classifier.forgetting(), static_cast<double>(reports.size() - report));
+    return std::pow(forgetting, static_cast<double>(reports.size() - report));
   };
   const auto left = [&](double log_ratio, std::size_t report) {
     return std::isfinite(log_ratio) ? weight(report) * log_ratio : log_ratio;

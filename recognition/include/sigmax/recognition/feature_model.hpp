@@ -101,6 +101,16 @@ class FeatureModel {
   Table columns_{0, 0};                      // log L(z|c), a row per reading: what a crisp report needs is contiguous
 };
 
+/// p(reading|feature): `right` where both have the same place, `wrong` in equal parts for the other readings. Throws as
+/// `Relation` does, unless they sum to one.
+inline Relation<Random, Random> symmetric_sensor(const RandomVariable& reading, const RandomVariable& feature,
+                                                 double right, double wrong) {
+  const std::size_t n = feature.size();
+  std::vector<std::vector<double>> rows(n, std::vector<double>(n, wrong / static_cast<double>(n - 1)));
+  for (std::size_t f = 0; f < n; ++f) rows[f][f] = right;
+  return {reading, feature, rows};
+}
+
 /// A relation read by a sensor of any kind.
 template <Uncertainty Pattern, Uncertainty Feature>
 FeatureModel(Relation<Feature, Pattern>) -> FeatureModel<Pattern, Feature>;

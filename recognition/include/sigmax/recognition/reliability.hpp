@@ -14,7 +14,7 @@ namespace sigmax {
 /// most as often, and no fault is found with one that is true more seldom. Cases are not kept.
 ///
 ///     Reliability reliability;
-///     for (…) reliability.add(truth, classifier.log_belief());
+///     for (…) reliability.add(truth, classifier.posterior(row));
 ///     for (const auto& bin : reliability.bins()) …   // bin.mean_degree against bin.share
 class Reliability {
  public:

@@ -1,4 +1,4 @@
-#include "recognition_demo/table_checks.hpp"
+#include "checks/table_checks.hpp"
 
 #include <array>
 #include <map>
@@ -17,8 +17,8 @@ std::string of_column(const std::string& name, fmt::format_string<Words...> form
   return "column " + in_quotes(name) + fmt::format(format, std::forward<Words>(words)...);
 }
 
-std::size_t rows_with(const DataColumn& column, std::size_t value) {
-  return static_cast<std::size_t>(std::ranges::count(column.codes, static_cast<Code>(value)));
+std::size_t rows_with(const TableColumn& column, std::size_t word) {
+  return static_cast<std::size_t>(std::ranges::count(column.cells, static_cast<double>(word)));
 }
 
 /// Whether numbers rise from row to row, as whole numbers or by even steps.
@@ -33,15 +33,16 @@ bool count_rows(const std::vector<double>& numbers) {
 }
 
 /// A column that names the rows, or counts them.
-std::string names_rows(const DataTable& table, const DataColumn& column) {
+std::string names_rows(const LabelledTable& table, const TableColumn& column) {
   if (table.size() < few_rows) return "";
-  if (column.numeric)
-    return !count_rows(column.numbers)
+  if (column.numeric())
+    return !count_rows(column.cells)
                ? ""
                : of_column(column.name, " counts the rows; leave it out by --ignore {}", typed(column.name));
-  const std::size_t cells = table.size() - rows_with(column, missing_code), words = column.values.size();
+  const auto blank = std::ranges::count_if(column.cells, [](double cell) { return std::isnan(cell); });
+  const std::size_t cells = table.size() - static_cast<std::size_t>(blank), words = column.words.size();
   if (cells < few_rows || 3 * words <= 2 * cells) return "";
-  if (std::ranges::all_of(column.values, [](const auto& word) { return parse_number(word).has_value(); }))
+  if (std::ranges::all_of(column.words, [](const auto& word) { return parse_number(word).has_value(); }))
     return of_column(column.name, ": {} numbers in {} cells count as words by --categorical; take them as numbers",
                      words, cells);
   return of_column(column.name, " names the rows ({} words in {} cells); leave it out by --ignore {}", words, cells,
@@ -49,14 +50,14 @@ std::string names_rows(const DataTable& table, const DataColumn& column) {
 }
 
 /// A column that alone tells the class: by few values, each of one class, or by numbers between which limits lie.
-std::string tells_class(const DataTable& table, const DataColumn& column) {
+std::string tells_class(const LabelledTable& table, const TableColumn& column) {
   constexpr std::size_t few_values = 8;
   std::map<double, std::size_t> class_of;
   std::vector<std::pair<double, double>> ranges(table.classes.size(), {infinity, -infinity});
   bool by_value = true;
   std::size_t rows = 0;
   for (std::size_t row = 0; row < table.size(); ++row) {
-    const double value = column.value(row);
+    const double value = column.cells[row];
     if (std::isnan(value)) continue;
     ++rows;
     const std::size_t its_class = table.labels[row];
@@ -67,7 +68,7 @@ std::string tells_class(const DataTable& table, const DataColumn& column) {
   }
   by_value = by_value && class_of.size() >= ranges.size() && rows >= 2 * class_of.size();
   std::ranges::sort(ranges);
-  bool by_limits = column.numeric && ranges.back().first < infinity;
+  bool by_limits = column.numeric() && ranges.back().first < infinity;
   for (std::size_t k = 1; k < ranges.size(); ++k) by_limits = by_limits && ranges[k - 1].second < ranges[k].first;
   if (rows < few_rows || !(by_value || by_limits)) return "";
   return of_column(
@@ -88,10 +89,10 @@ bool is_code(double number) {
 
 /// Numbers at one end of a column that are codes, or come again, farther from the others than these are from each
 /// other; or a code of which there are no others below 0.
-std::string far_numbers(const DataColumn& column) {
+std::string far_numbers(const TableColumn& column) {
   constexpr std::size_t again = 3, few_values = 8, most_codes = 3;
   std::map<double, std::size_t> all;
-  for (const double number : column.numbers)
+  for (const double number : column.cells)
     if (!std::isnan(number)) ++all[number];
   for (const bool above : {false, true}) {
     std::map<double, std::size_t> rest = all;
@@ -109,7 +110,7 @@ std::string far_numbers(const DataColumn& column) {
       const double gap = std::abs(number - next);
       const bool far =
           gap > high - low && gap > 0.05 * std::abs(next) && (rest.size() >= few_values || is_code(number));
-      if ((lone || far) && column.numbers.size() >= few_rows + 2 * cells)
+      if ((lone || far) && column.cells.size() >= few_rows + 2 * cells)
         return of_column(column.name, ": {} {} {}, far from the others; if {} for no value, give --missing={}", cells,
                          cells == 1 ? "cell is" : "cells are", fmt::join(words, " or "),
                          words.size() == 1 ? "that stands" : "these stand", fmt::join(words, ","));
@@ -119,13 +120,13 @@ std::string far_numbers(const DataColumn& column) {
 }
 
 /// Numbers or words that may stand for no value.
-std::string sentinels(const DataTable& table, const DataColumn& column) {
-  if (column.numeric) return far_numbers(column);
-  const auto unknown = std::ranges::find_if(column.values, says_unknown);
-  if (unknown == column.values.end()) return "";
+std::string sentinels(const LabelledTable& table, const TableColumn& column) {
+  if (column.numeric()) return far_numbers(column);
+  const auto unknown = std::ranges::find_if(column.words, says_unknown);
+  if (unknown == column.words.end()) return "";
   return of_column(column.name,
                    ": {} of {} rows hold {}, a value among words; if it stands for none, give --missing={}",
-                   rows_with(column, static_cast<std::size_t>(unknown - column.values.begin())), table.size(),
+                   rows_with(column, static_cast<std::size_t>(unknown - column.words.begin())), table.size(),
                    in_quotes(*unknown), typed(*unknown));
 }
 
@@ -144,17 +145,17 @@ std::optional<std::string_view> unit_of(std::string_view word) {
 }
 
 /// Numbers that count as words, for how they are written or for a word among them.
-std::string written_numbers(const DataColumn& column) {
+std::string written_numbers(const TableColumn& column) {
   constexpr std::size_t few = 8, few_words = 4;
   std::set<std::string_view> units;
   std::string example;
   std::vector<std::string> others;
-  for (const std::string& word : column.values)
+  for (const std::string& word : column.words)
     if (const auto unit = unit_of(word); !unit)
       others.push_back(typed(word));
     else if (units.insert(*unit); !parse_number(word) && example.empty())
       example = word;
-  const std::size_t numbers = column.values.size() - others.size();
+  const std::size_t numbers = column.words.size() - others.size();
   if (numbers <= few || others.size() >= numbers || units.size() > few_words) return "";
   if (!example.empty())
     return of_column(column.name, " holds numbers as words, as {}; write plain numbers, all in one unit",
@@ -165,10 +166,10 @@ std::string written_numbers(const DataColumn& column) {
 }
 
 /// Cells that are missing because of the class.
-std::string gaps(const DataTable& table, const DataColumn& column) {
+std::string gaps(const LabelledTable& table, const TableColumn& column) {
   std::vector<double> shares(table.classes.size());
   for (std::size_t row = 0; row < table.size(); ++row)
-    if (std::isnan(column.value(row)))
+    if (std::isnan(column.cells[row]))
       shares[table.labels[row]] += 1.0 / static_cast<double>(table.rows_of_class[table.labels[row]]);
   std::vector<std::size_t> known;  // classes of which one can tell
   for (std::size_t c = 0; c < shares.size(); ++c)
@@ -189,7 +190,7 @@ std::string written_otherwise(const std::string& column, const std::vector<std::
   return two.empty() ? "" : of_column(column, ": {} differ in writing only, and count as two; write them alike", two);
 }
 
-std::vector<std::string> of_classes(const DataTable& table) {
+std::vector<std::string> of_classes(const LabelledTable& table) {
   const auto& classes = table.classes;
   std::vector<std::string> found = {written_otherwise(table.label, classes)};
   if (std::ranges::find(classes, table.label) != classes.end())
@@ -211,9 +212,9 @@ std::vector<std::string> of_classes(const DataTable& table) {
 }
 
 /// How often two rows have the same in a column, and how many different cells there are.
-std::pair<double, std::size_t> sameness(const DataTable& table, const DataColumn& column) {
+std::pair<double, std::size_t> sameness(const LabelledTable& table, const TableColumn& column) {
   auto cells = each_below(table.size(), [&](std::size_t row) {
-    const double value = column.value(row);
+    const double value = column.cells[row];
     return std::isnan(value) ? infinity : value;
   });
   std::ranges::sort(cells);
@@ -228,12 +229,12 @@ std::pair<double, std::size_t> sameness(const DataTable& table, const DataColumn
 }
 
 /// Rows, of all or of a class, that repeat another, and not by chance.
-std::string copies(const DataTable& table) {
+std::string copies(const LabelledTable& table) {
   std::vector<std::pair<std::size_t, std::size_t>> rows;  // class and hash
   for (std::size_t row = 0; row < table.size(); ++row) {
     std::size_t hash = 0;
-    for (const DataColumn& column : table.columns) {
-      const double value = column.value(row);
+    for (const TableColumn& column : table.columns) {
+      const double value = column.cells[row];
       hash = (hash ^ std::hash<double>{}(std::isnan(value) ? infinity : value)) * 0x9E3779B97F4A7C15U;
       hash ^= hash >> 32U;
     }
@@ -254,7 +255,7 @@ std::string copies(const DataTable& table) {
   std::size_t fine = 0;
   const auto n = static_cast<double>(all);
   double pairs = n * n / 2.0;
-  for (const DataColumn& column : table.columns) {
+  for (const TableColumn& column : table.columns) {
     const auto [same, values] = sameness(table, column);
     fine += 2 * values > rows.size() ? 1U : 0U;
     pairs *= std::sqrt(same);
@@ -268,22 +269,22 @@ std::string copies(const DataTable& table) {
 
 }  // namespace
 
-std::vector<std::string> findings_of(const DataTable& table) {
+std::vector<std::string> findings_of(const LabelledTable& table) {
   std::vector<std::string> found = of_classes(table);
   found.push_back(copies(table));
-  for (const DataColumn& column : table.columns) {
-    const std::string written = column.numeric ? "" : written_numbers(column);
+  for (const TableColumn& column : table.columns) {
+    const std::string written = column.numeric() ? "" : written_numbers(column);
     found.push_back(written.empty() ? names_rows(table, column) : written);
     if (!found.back().empty()) continue;  // the cause of what else there is to see
     for (std::string& more : std::vector{tells_class(table, column), sentinels(table, column), gaps(table, column),
-                                         written_otherwise(column.name, column.values)})
+                                         written_otherwise(column.name, column.words)})
       found.push_back(std::move(more));
   }
   std::erase(found, "");
   return found;
 }
 
-void print_findings(const DataTable& table) {
+void print_findings(const LabelledTable& table) {
   for (const auto& note : table.notes) complain(fmt::format("recognition_demo: note: {}: {}", table.file, note));
   for (const auto& finding : findings_of(table))
     complain(fmt::format("recognition_demo: warning: {}: {}", table.file, finding));

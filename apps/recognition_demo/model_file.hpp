@@ -1,0 +1,42 @@
+#pragma once
+
+#include <filesystem>
+
+#include <sigmax/recognition/table_classifier.hpp>
+
+#include "records/labelled_table.hpp"
+#include "shell/command_line.hpp"
+
+namespace sigmax::apps {
+
+/// What `train` learned, and how `classify` reads rows.
+struct SavedModel {
+  TableModel model;
+  std::vector<std::string> kinds;    ///< of classifiers
+  std::vector<std::string> missing;  ///< words that stand for nothing, beside the usual ones
+};
+
+/// A model as a JSON file, which appears whole or not at all, and back. `read_model` throws InputError with the file
+/// and the place for what is no model, is truncated or of another version, or contradicts itself.
+void write_model(const SavedModel& saved, const std::filesystem::path& path);
+SavedModel read_model(const std::filesystem::path& path);
+
+/// The kinds of classifiers: "sigma", "max", "sigma-max".
+inline const std::vector<std::string> kind_names = {"sigma", "max", "sigma-max"};
+
+/// The classifiers of the named kinds, in the order of `kind_names`; those with possibilities for the ratio scale and
+/// for Dubois and Prade's transform. Sigma-max classifiers that are max classifiers are left out beside these: all
+/// where nothing is misread, (17), and else that of the ratio scale, since the rows of the sensor have equal maxima.
+/// Throws UsageError where a feature would be misread more often than read.
+std::vector<TableClassifier> classifiers(TableModel model, std::span<const std::string> kinds = kind_names);
+
+/// The options of learning, and those of the data that are learned from.
+void add_learning(Subcommand app, std::string& file, TableReading& data, TableOptions& learning);
+
+/// "101 rows, 7 classes, 16 features (15 categorical, 1 numeric)".
+std::string described(const LabelledTable& data);
+
+/// "counts smoothed by Laplace's rule; prior by the classes' shares of the rows", and what else was chosen.
+std::string described(const TableOptions& options);
+
+}  // namespace sigmax::apps
