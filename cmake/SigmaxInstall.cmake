@@ -42,6 +42,16 @@ if(SIGMAX_WITH_HIGHWAY)
 endif()
 sigmax_pc(sigmax "" "eigen3 >= 3.4" "${link_flags}${private_flags}")
 sigmax_pc(sigmax-core ": the part that does without Eigen" "" " -lsigmax_core${private_flags}")
+set(parts_need "")  # of Debian's packages
+foreach(part IN LISTS SIGMAX_PARTS)  # SIGMAX_NEEDS is the library of each, for a linker, and Debian's package of it
+  get_target_property(needs sigmax_${part} SIGMAX_NEEDS)
+  list(POP_FRONT needs library)
+  sigmax_pc(sigmax-${part} ": the part ${part}" "sigmax" " -lsigmax_${part} -l${library}")
+  string(APPEND parts_need ", ${needs}")
+  if(EXISTS "${CMAKE_CURRENT_LIST_DIR}/Find${library}.cmake")
+    install(FILES "${CMAKE_CURRENT_LIST_DIR}/Find${library}.cmake" DESTINATION "${package_dir}" COMPONENT dev)
+  endif()
+endforeach()
 
 # Debian packages: `cpack -G DEB` in the build directory. What Debian wants in every package is installed in packages only.
 foreach(package libsigmax-dev:dev sigmax-tools:tools)
@@ -67,7 +77,7 @@ set(CPACK_DEBIAN_PACKAGE_MAINTAINER "sigmax maintainers <maintainers@sigmax.inva
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 set(CPACK_DEBIAN_DEV_PACKAGE_NAME libsigmax-dev)
 set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
-set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS "libeigen3-dev (>= 3.4), libstdc++-12-dev | libstdc++-dev")
+set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS "libeigen3-dev (>= 3.4), libstdc++-12-dev | libstdc++-dev${parts_need}")
 if(SIGMAX_WITH_HIGHWAY)
   string(APPEND CPACK_DEBIAN_DEV_PACKAGE_DEPENDS ", libhwy-dev")
 endif()

@@ -28,26 +28,27 @@ void RecordingChecks::see(const Row& row, const LocalFrame* frame) {
     if (const auto own = plot.sensor == AnyPlot::Sensor::components ? component_of(plot, axes + i) : std::nullopt)
       record.velocity[i] = *own;
   record.climb = record.velocity[2];
-  if (plot.sensor == AnyPlot::Sensor::polar || plot.sensor == AnyPlot::Sensor::doppler) {
+  const bool is_seen = plot.sensor == AnyPlot::Sensor::polar || plot.sensor == AnyPlot::Sensor::doppler;
+  const auto here = place_of(plot, axes, track.altitude_m);
+  if (is_seen && axes_seen(plot, axes) == axes) {
     record.range = plot.z[0];
     record.azimuth = plot.z[1];
     if (axes == 3) record.elevation = plot.z[2];
     if (plot.sensor == AnyPlot::Sensor::doppler) record.range_rate = plot.z[static_cast<std::size_t>(axes)];
     record.at = Vector(position_of(plot, axes)->data());
     records_->radars.try_emplace(record.sensor, record.from);
-  } else if (recording.geodetic() && axes_seen(plot, std::min(axes, 2)) == 2) {
-    const Geodetic here = place_of(plot, axes, track.altitude_m);
-    track.altitude_m = here.altitude_m;
-    if (!track.frame) track.frame = frame ? *frame : LocalFrame(here, axes);
-    record.at = Vector(track.frame->to_local(here).data());
-    record.height = here.altitude_m;
+  } else if (recording.geodetic() && here) {
+    track.altitude_m = here->altitude_m;
+    if (!track.frame) track.frame = frame ? *frame : LocalFrame(*here, axes);
+    record.at = Vector(track.frame->to_local(*here).data());
+    record.height = here->altitude_m;
     const auto turn = track.frame->local_axes({record.at[0], record.at[1], record.at[2]});
     Vector turned = Vector::Zero();
     for (std::size_t i = 0; i < 3; ++i)
       if (const double own = record.velocity[static_cast<Eigen::Index>(i)]; !std::isnan(own) || i < 2)
         turned += own * Vector(turn[i].data());
     record.velocity = turned;
-  } else if (axes_seen(plot, axes) == axes) {
+  } else if (!is_seen && axes_seen(plot, axes) == axes) {
     record.at = Vector(position_of(plot, axes)->data());
     record.height = axes == 3 ? record.at[2] : nan;
   }

@@ -5,46 +5,12 @@
 
 namespace sigmax::apps {
 
-std::optional<double> component_of(const AnyPlot& plot, int component) {
-  for (std::size_t i = 0; plot.sensor == AnyPlot::Sensor::components && i < static_cast<std::size_t>(plot.size); ++i)
-    if (plot.places[i] == component) return plot.z[i];
-  return std::nullopt;
-}
-
-int axes_seen(const AnyPlot& plot, int axes) {
-  if (plot.sensor == AnyPlot::Sensor::polar || plot.sensor == AnyPlot::Sensor::doppler) return axes;
-  int seen = 0;
-  for (int axis = 0; axis < axes; ++axis) seen += component_of(plot, axis) ? 1 : 0;
-  return seen;
-}
-
-bool is_moving(const AnyPlot& plot, int axes) {
-  return plot.sensor == AnyPlot::Sensor::components && axes_seen(plot, axes) < plot.size;
-}
-
-Geodetic place_of(const AnyPlot& plot, int axes, double altitude_m) {
-  return {*component_of(plot, 0), *component_of(plot, 1), axes == 3 ? component_of(plot, 2).value_or(altitude_m) : 0.0};
-}
-
-AnyPlot in_frame(AnyPlot plot, const LocalFrame& frame, const Position& at, int axes) {
-  Position v{};
-  for (int i = 0; i < axes; ++i) v[static_cast<std::size_t>(i)] = component_of(plot, axes + i).value_or(0.0);
-  const auto turn = is_moving(plot, axes) ? frame.local_axes(at) : std::array<Position, 3>{};
-  for (std::size_t i = 0; i < static_cast<std::size_t>(plot.size); ++i) {
-    const int axis = plot.places[i] - axes;
-    const auto column = [&](std::size_t row) { return turn[row][static_cast<std::size_t>(axis)]; };
-    plot.z[i] = axis < 0 ? at[static_cast<std::size_t>(plot.places[i])]
-                         : column(0) * v[0] + column(1) * v[1] + column(2) * v[2];
-  }
-  return plot;
-}
-
 std::optional<Position> position_of(const AnyPlot& plot, int axes) {
   if (axes_seen(plot, axes) == 0) return std::nullopt;
-  if (plot.sensor == AnyPlot::Sensor::components)
+  if (plot.sensor == AnyPlot::Sensor::components || plot.sensor == AnyPlot::Sensor::position)
     return Position{component_of(plot, 0).value_or(0.0), axes > 1 ? component_of(plot, 1).value_or(0.0) : 0.0,
                     axes > 2 ? component_of(plot, 2).value_or(0.0) : 0.0};
-  const double range = plot.z[0], azimuth = plot.z[1], elevation = axes == 3 ? plot.z[2] : 0.0;
+  const double range = plot.z[0], azimuth = plot.z[1], elevation = axes_seen(plot, axes) == 3 ? plot.z[2] : 0.0;
   const double ground = range * std::cos(elevation);
   return Position{plot.origin[0] + ground * std::cos(azimuth), plot.origin[1] + ground * std::sin(azimuth),
                   plot.origin[2] + range * std::sin(elevation)};

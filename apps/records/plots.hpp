@@ -7,22 +7,6 @@ namespace sigmax::apps {
 
 class RandomStream;
 
-/// The number of a plot that is this component of the state: those of the position come first, then of the velocity.
-std::optional<double> component_of(const AnyPlot& plot, int component);
-
-/// Along so many axes a plot has the position; a radar's along all.
-int axes_seen(const AnyPlot& plot, int axes);
-
-/// Whether it has a velocity.
-bool is_moving(const AnyPlot& plot, int axes);
-
-/// The place of a geodetic row; in space, at this altitude if it does not tell its own.
-Geodetic place_of(const AnyPlot& plot, int axes, double altitude_m);
-
-/// A geodetic row's plot in a frame, where its position is `at`. The velocity, which is along the east, north and up of
-/// that place, comes along the axes of the frame.
-AnyPlot in_frame(AnyPlot plot, const LocalFrame& frame, const Position& at, int axes);
-
 /// Range in m, azimuth and elevation in rad.
 using Sighting = std::array<double, 3>;
 

@@ -90,11 +90,10 @@ RecordingReader::RecordingReader(const RecordingOptions& options) : options_(opt
   if (!options.origin) return;
   if (!on_the_earth())
     throw UsageError("--origin is for geodetic input, or sensors with a latitude, but " + file() + " has none");
-  try {
-    origin_ = Geodetic::checked((*options.origin)[0], (*options.origin)[1], (*options.origin)[2]);
-  } catch (const std::invalid_argument& error) {
-    throw UsageError("--origin: {}", error.what());
-  }
+  const auto& [latitude, longitude, altitude] = *options.origin;
+  origin_ = {latitude, longitude, altitude};
+  if (!origin_->is_valid())
+    throw UsageError("--origin: latitude {}°, longitude {}°, expected −90° to 90°, −360° to 360°", latitude, longitude);
 }
 
 std::optional<std::size_t> RecordingReader::find(std::string_view name) const {
@@ -163,13 +162,10 @@ void RecordingReader::find_columns() {
   time_ = *time;
 
   if (!cartesian) drop(Role::position);
-  axes_ = polar() ? axes_of(Role::polar) : geodetic() ? axes_of(Role::place) : cartesian ? axes_of(Role::position) : 2;
+  axes_ = std::max(polar() ? axes_of(Role::polar) : 0, axes_of(where()));
+  if (axes_ == 0) axes_ = 2;
   if (!cartesian && !geodetic() && !has(Role::polar, 1))
     axes_ = has_course ? (has(Role::velocity, 2) ? 3 : 2) : axes_of(Role::velocity);
-  if (polar() && (cartesian || geodetic()) && axes_of(where()) != axes_)
-    throw InputError(
-        "{}:1: found {}, expected both {} and elevation_deg, or none of them; give all sensors of a file as many axes",
-        file(), fmt::join(csv_.names(), ", "), geodetic() ? "altitude_m" : "z_m");
   const auto axes = static_cast<std::size_t>(axes_);
   if (!options_.simulated && (polar() || (!options_.velocity && located()))) doubted_ = columns_;
   if (!options_.velocity || axes_ == 1 || !has_course) drop(Role::course);
@@ -441,22 +437,20 @@ std::optional<Position> RecordingReader::position(Role role) const {
 /// The place on the Earth that it says, perhaps without an altitude.
 Geodetic RecordingReader::place(Role role) const {
   require_whole(role, 2);
-  try {
-    return Geodetic::checked(*said(role), *said(role, 1), said(role, 2).value_or(0.0));
-  } catch (const std::invalid_argument&) {
-    const bool is_latitude = std::abs(*said(role)) > 90.0;
-    throw error(
-        role, is_latitude ? 0 : 1, is_latitude ? "degrees from −90 to 90" : "degrees from −360 to 360",
-        is_latitude && role == Role::place && std::abs(*said(role)) <= 360.0 && std::abs(*said(role, 1)) <= 90.0
-            ? fmt::format("correct the cell, or, where latitude and longitude are exchanged, give --columns "
-                          "latitude_{0}={1},longitude_{2}={3}",
-                          columns_[place_of(role)]->unit->suffix, typed(header_of(place_of(role) + 1)),
-                          columns_[place_of(role) + 1]->unit->suffix, typed(header_of(place_of(role))))
-        : std::abs(*said(role)) < 1000.0 && std::abs(*said(role, 1)) < 1000.0
-            ? "correct the cell or drop the row"
-            : "if all are so, they are no degrees, but degrees and minutes in a row, as 5359.4, minutes, degrees "
-              "× 10⁷ or semicircles × 2³¹: write degrees");
-  }
+  const Geodetic place{*said(role), *said(role, 1), said(role, 2).value_or(0.0)};
+  if (place.is_valid()) return place;
+  const double latitude = std::abs(place.latitude_deg), longitude = std::abs(place.longitude_deg);
+  const bool is_latitude = latitude > 90.0;
+  throw error(role, is_latitude ? 0 : 1, is_latitude ? "degrees from −90 to 90" : "degrees from −360 to 360",
+              is_latitude && role == Role::place && latitude <= 360.0 && longitude <= 90.0
+                  ? fmt::format("correct the cell, or, where latitude and longitude are exchanged, give --columns "
+                                "latitude_{0}={1},longitude_{2}={3}",
+                                columns_[place_of(role)]->unit->suffix, typed(header_of(place_of(role) + 1)),
+                                columns_[place_of(role) + 1]->unit->suffix, typed(header_of(place_of(role))))
+              : std::max(latitude, longitude) < 1000.0
+                  ? "correct the cell or drop the row"
+                  : "if all are so, they are no degrees, but degrees and minutes in a row, as 5359.4, minutes, degrees "
+                    "× 10⁷ or semicircles × 2³¹: write degrees");
 }
 
 /// What the row measured.
@@ -472,7 +466,7 @@ AnyPlot RecordingReader::measured() {
 
 AnyPlot RecordingReader::radar_plot() const {
   const bool is_bearing = !said(Role::polar, 0) && !said(Role::polar, 2);
-  if (!is_bearing) require_whole(Role::polar, 3);
+  if (!is_bearing) require_whole(Role::polar, 2);  // in space it may have no elevation
   if (!is_bearing && !(*said(Role::polar) > 0.0))
     throw error(Role::polar, 0, "a range above 0 m", "correct the cell, or empty those of a missed measurement");
   if (!(std::abs(said(Role::polar, 2).value_or(0.0)) <= 90.0))
@@ -490,12 +484,12 @@ AnyPlot RecordingReader::radar_plot() const {
   const double sigma_range = said(Role::sigma_polar).value_or(nan);
   std::vector<double> z = {*said(Role::polar), from_east};
   std::vector<double> variances = {sigma_range * sigma_range, sigma_azimuth * sigma_azimuth};
-  if (axes_ == 3) {
+  if (said(Role::polar, 2)) {
     const double sigma_elevation = said(Role::sigma_polar, 2).value_or(nan) * degree;
     z.push_back(*said(Role::polar, 2) * degree);
     variances.push_back(sigma_elevation * sigma_elevation);
   }
-  if (!said(Role::range_rate)) return AnyPlot::polar(0.0, z, variances);
+  if (!said(Role::range_rate) || z.size() < static_cast<std::size_t>(axes_)) return AnyPlot::polar(0.0, z, variances);
   z.push_back(*said(Role::range_rate));
   variances.push_back(nan);
   return AnyPlot::doppler(0.0, z, variances);
@@ -503,7 +497,8 @@ AnyPlot RecordingReader::radar_plot() const {
 
 /// The position, as far as the row has it, and the velocity; or that nothing was measured.
 AnyPlot RecordingReader::components() const {
-  if (geodetic() && says(where())) place(where());  // it may lack its altitude, another position any coordinate
+  // A place has a latitude and a longitude; another position may lack any coordinate.
+  if (geodetic() && (said(Role::place) || said(Role::place, 1))) place(Role::place);
   std::vector<int> places;
   std::vector<double> z, variances;
   const auto add = [&](std::size_t place, double number, double sigma) {

@@ -1,9 +1,8 @@
 #pragma once
 
-#include <sigmax/hybrid/any_plot.hpp>
+#include <sigmax/earth/earth_plot.hpp>
 
 #include "table/csv.hpp"
-#include "table/geodesy.hpp"
 #include "table/quantities.hpp"
 
 namespace sigmax::apps {

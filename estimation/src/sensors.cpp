@@ -30,7 +30,7 @@ struct Offset {
   }
 };
 
-/// ∂/∂position of what a radar sees, in a matrix of m rows.
+/// ∂/∂position of what a radar sees, in a matrix of m rows: without the elevation, if there are two.
 void write_slopes(int axes, const Offset& at, int m, double* H) {
   for (int i = 0; i < axes; ++i) {
     H[i * m] = at.d[i] / at.range;
@@ -38,7 +38,7 @@ void write_slopes(int axes, const Offset& at, int m, double* H) {
   }
   H[1] = -at.d[1] / at.ground_squared;
   H[1 + m] = at.d[0] / at.ground_squared;
-  if (axes == 2) return;
+  if (axes == 2 || m == 2) return;
   const double scale = at.d[2] / (at.range * at.range * at.ground);
   H[2] = -at.d[0] * scale;
   H[2 + m] = -at.d[1] * scale;
@@ -91,6 +91,12 @@ void polar(int axes, const double* origin, const double* position, double* z, do
   const Offset at(axes, origin, position);
   if (z) write_seen(axes, at, z);
   if (H) write_slopes(axes, at, axes, H);
+}
+
+void slant(const double* origin, const double* position, double* z, double* H) {
+  const Offset at(3, origin, position);
+  if (z) write_seen(2, at, z);
+  if (H) write_slopes(3, at, 2, H);
 }
 
 void bearing(const double* origin, const double* position, double* z, double* H) {

@@ -58,4 +58,25 @@ AnyPlot AnyPlot::components(double time, std::span<const int> places, std::span<
   return plot;
 }
 
+std::optional<double> component_of(const AnyPlot& plot, int component) {
+  using enum AnyPlot::Sensor;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(plot.size); ++i)
+    if (plot.sensor == components ? plot.places[i] == component
+                                  : plot.sensor == position && static_cast<int>(i) == component)
+      return plot.z[i];
+  return std::nullopt;
+}
+
+int axes_seen(const AnyPlot& plot, int axes) {
+  if (plot.sensor == AnyPlot::Sensor::polar || plot.sensor == AnyPlot::Sensor::doppler)
+    return std::min(plot.size, axes);
+  int seen = 0;
+  for (int axis = 0; axis < axes; ++axis) seen += component_of(plot, axis) ? 1 : 0;
+  return seen;
+}
+
+bool is_moving(const AnyPlot& plot, int axes) {
+  return plot.sensor == AnyPlot::Sensor::components && axes_seen(plot, axes) < plot.size;
+}
+
 }  // namespace sigmax

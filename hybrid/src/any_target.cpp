@@ -189,12 +189,13 @@ AnySensor chosen_sensor(const AnyPlot& plot, int axes) {
                                                  axes);
   if (axes == 1 && plot.sensor != position)
     throw std::invalid_argument("along one axis a plot is a position or components; a radar needs a plane");
+  const Vector<3> origin(plot.origin.data());
+  if (plot.sensor == polar && axes == 3 && plot.size == 2) return SlantSensor(origin);
   const int expected = plot.sensor == bearing ? 1 : plot.sensor == doppler ? axes + 1 : axes;
   if (plot.size != expected)
     throw std::invalid_argument("a plot has " + std::to_string(plot.size) + " measured quantities; expected " +
                                 std::to_string(expected));
   const Vector<2> below(plot.origin.data());
-  const Vector<3> origin(plot.origin.data());
   if (plot.sensor == bearing) return BearingSensor(below);
   if (plot.sensor == polar && axes == 2) return PolarSensor<2>(below);
   if (plot.sensor == polar) return PolarSensor<3>(origin);

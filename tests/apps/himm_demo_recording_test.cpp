@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/recordings.hpp"
-#include "table/geodesy.hpp"
+#include <sigmax/earth/local_frame.hpp>
 
 namespace himm_demo_recording_test {
 

@@ -19,6 +19,18 @@ PROPERTY(DopplerSensor, SeesWhatARadarSeesAndHowFastTheRangeGrows) {
   require_near(seen(3), (range_in(h) - range_in(-h)) / (2.0 * h), 1e-7);
 }
 
+PROPERTY(SlantSensor, SeesTheRangeAndTheAzimuthOfARadar) {
+  const Vector<3> origin = 100.0 * generated_matrix<3, 1>(), x = origin + 100.0 * generated_matrix<3, 1>();
+  if ((x - origin).head<2>().norm() < 1.0) return;
+  double z[2], H[6], all_z[3], all_H[9];
+  SlantSensor{origin}.compute(x.data(), 2, z, H);
+  PolarSensor<3>{origin}.compute(x.data(), 3, all_z, all_H);
+  for (int i = 0; i < 2; ++i) {
+    EXPECT_EQ(z[i], all_z[i]);
+    for (int k = 0; k < 3; ++k) EXPECT_EQ(H[i + 2 * k], all_H[i + 3 * k]);
+  }
+}
+
 TEST(DopplerSensor, ATargetThatComesStraightInHasItsSpeedAndOneThatCirclesNone) {
   const DopplerSensor<2> sensor{Vector<2>(0.0, 100.0)};
   EXPECT_CLOSE(sensor.measure(Vector<4>(300.0, 500.0, -30.0, -40.0)), (Vector<3>(500.0, std::atan2(4.0, 3.0), -50.0)),

@@ -191,21 +191,6 @@ AnyPlot converted(const AnyPlot& seen, RadarForm form) {
   return plot;
 }
 
-/// Turns a radar's angles, or a bearing, from east and horizon at its origin to those of the frame.
-void turn_to(const LocalFrame& frame, AnyPlot& plot, int axes) {
-  const bool alone = plot.sensor == AnyPlot::Sensor::bearing;
-  double& azimuth = plot.z[alone ? 0 : 1];
-  const double elevation = alone || axes < 3 ? 0.0 : plot.z[2];
-  const Position seen = {std::cos(elevation) * std::cos(azimuth), std::cos(elevation) * std::sin(azimuth),
-                         std::sin(elevation)};
-  const auto local = frame.local_axes(plot.origin);
-  Position turned{};
-  for (std::size_t i = 0; i < 3; ++i)
-    for (std::size_t k = 0; k < 3; ++k) turned[i] += local[k][i] * seen[k];
-  azimuth = std::atan2(turned[1], turned[0]);
-  if (!alone && axes == 3) plot.z[2] = std::atan2(turned[2], std::hypot(turned[0], turned[1]));
-}
-
 }  // namespace
 
 TargetChoice choice_of(const FilterSettings& settings, int axes) {
@@ -259,7 +244,7 @@ AnyPlot believed(const FilterSettings& settings, std::string_view sensor, const 
     taken.sensor = none;
   } else if (plot.sensor == doppler || plot.sensor == polar) {
     taken.sensor = taken.size > axes ? doppler : polar;
-    if (taken.sensor == polar && settings.radar_measurement != RadarForm::polar)
+    if (taken.size == axes && settings.radar_measurement != RadarForm::polar)
       return converted(taken, settings.radar_measurement);
   } else if (plot.sensor == components && taken.size == axes && taken.places[n - 1] == axes - 1) {
     taken.sensor = position;
@@ -276,8 +261,8 @@ void SensorPlaces::place(Row& row) {
   AnyPlot& plot = row.plot;
   const int axes = recording_.axes();
   if (plot.sensor == AnyPlot::Sensor::components) {
-    if (!frame_ && recording_.geodetic() && recording_.seen_from_places() && axes_seen(plot, axes) > 0)
-      frame_.emplace(place_of(plot, axes, 0.0), axes);
+    const auto here = place_of(plot, axes);
+    if (!frame_ && recording_.geodetic() && recording_.seen_from_places() && here) frame_.emplace(*here, axes);
     return;
   }
   if (!row.measured()) return;
@@ -289,8 +274,7 @@ void SensorPlaces::place(Row& row) {
   if (!at && !on_earth && !own.at_m.empty()) at = {own.at_m[0], own.at_m[1], own.at_m.size() == 3 ? own.at_m[2] : 0.0};
   if (on_earth) {
     if (!frame_) frame_.emplace(*on_earth, axes);
-    plot.origin = frame_->to_local(*on_earth);
-    turn_to(*frame_, plot, axes);
+    plot = seen_from(*on_earth, plot, *frame_, axes);
   } else {
     plot.origin = at.value_or(otherwise_);
     in_metres_ = true;

@@ -168,8 +168,11 @@ std::vector<double> TrackPage::heights(const Track& track, std::size_t from) con
   if (!track.anchor) return z;
   const std::vector<double> x = track.rows.column(from - 2), y = track.rows.column(from - 1);
   const LocalFrame frame(*track.anchor, recording_.axes());
-  for (std::size_t k = 0; k < z.size(); ++k)
-    if (!std::isnan(z[k])) z[k] = frame.to_geodetic({x[k], y[k], z[k]}).altitude_m;
+  Position at{};  // where x and y are not told, as before
+  for (std::size_t k = 0; k < z.size(); ++k) {
+    if (!std::isnan(x[k] + y[k])) at = {x[k], y[k]};
+    if (!std::isnan(z[k])) z[k] = frame.to_geodetic({at[0], at[1], z[k]}).altitude_m;
+  }
   return z;
 }
 

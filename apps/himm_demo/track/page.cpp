@@ -110,10 +110,11 @@ void TrackPage::measured(const Row& row, const std::optional<Position>& position
   if (is_seen_from && row.measured() && !row.sensor_at && !row.sensor_place)  // that does not move
     stations_[row.plot.origin].insert(row.sensor.empty() ? "radar" : row.sensor);
   std::vector<double>& numbers = this->numbers(*track, row.plot.time, row.line);
-  const bool is_whole = row.plot.sensor != AnyPlot::Sensor::components;
+  const int axes = recording_.axes();
   for (std::size_t i = 0; i < 3; ++i) {
-    const bool is_seen = position && (is_whole || i >= static_cast<std::size_t>(recording_.axes()) ||
-                                      component_of(row.plot, static_cast<int>(i)));
+    const int axis = static_cast<int>(i);
+    const bool is_seen = position && (axis >= axes || component_of(row.plot, axis) ||
+                                      (is_seen_from && axis < axes_seen(row.plot, axes)));
     if (is_seen) numbers[plot_at + i] = (*position)[i];
     if (row.truth) numbers[truth_at + i] = (*row.truth)[i];
     if (is_seen && row.truth) numbers[plot_error_at + i] = (*position)[i] - (*row.truth)[i];

@@ -1,5 +1,6 @@
+#include <sigmax/earth/earth_target.hpp>
+
 #include "himm_demo/track/estimates.hpp"
-#include "himm_demo/track/frames.hpp"
 #include "himm_demo/track/page.hpp"
 #include "himm_demo/track/track.hpp"
 #include "shell/progress.hpp"
@@ -12,12 +13,14 @@ namespace {
 /// One target of a recording, followed by every filter.
 struct Target {
   RandomStream random;
-  std::vector<AnyTarget> filters;
-  std::optional<TargetFrames> frames{};                                              // on the Earth
-  std::deque<Row> rows{};                                                            // whose tags are their numbers
+  std::vector<EarthTarget> filters;  // or in metres, where nothing is on the Earth
+  std::deque<Row> rows{};            // whose tags are their numbers
   std::map<std::pair<std::size_t, std::string>, std::vector<double>> innovations{};  // the last of a filter and sensor
   TrackTally tally{};
+  Geodetic last_place{};
 
+  /// From where positions are counted, once a place on the Earth is known.
+  const std::optional<LocalFrame>& anchor() const { return filters.front().anchor(); }
   const Row& row(std::size_t tag) const { return rows[tag + rows.size() - tally.rows]; }
 };
 
@@ -25,11 +28,6 @@ template <class Add>
 void add_by_part(SumsByPart& sums, std::optional<double> roll, const Add& add) {
   for (std::size_t p = 0; p < row_parts.size(); ++p)
     if (row_parts[p].holds(roll)) add(sums[p]);
-}
-
-/// Whether a model wanders about the origin, which then is to stay where it is.
-bool has_home(const FilterSettings& filter) {
-  return std::ranges::count(filter.motions, "ou_position", &MotionChoice::name) > 0;
 }
 
 /// All filters on all targets of one recording.
@@ -101,8 +99,7 @@ class TrackRun {
     Target& target = found->second;
     if (!options_.radar.sigma) places_.place(row);
     if (sinks_.rows) sinks_.rows(row, places_.frame() ? &*places_.frame() : nullptr);
-    if (!target.frames && (places_.frame() || (recording_.geodetic() && axes_seen(row.plot, axes_) > 0)))
-      begin_frames(target, places_.frame() ? places_.frame()->origin() : place_of(row.plot, axes_, 0.0));
+    if (!target.anchor()) begin(target, row.plot);
     if (options_.radar.sigma) see_by_radar(row, where(row, target), axes_, options_.radar, target.random, file());
     if (sinks_.page || row.truth) measured(row, where(row, target), target);
     if (is_unsuited(row)) outcome_.unsuited.add(row.line);
@@ -149,24 +146,24 @@ class TrackRun {
     }
   }
 
-  /// Gives the target its frames at its first place. Where errors or a radar are about one point, that is the frame of
-  /// all for good.
-  void begin_frames(Target& target, const Geodetic& here) {
-    if (!file_anchor_) file_anchor_ = recording_.origin().value_or(here);
-    const LocalFrame anchor(fixed_ ? *file_anchor_ : recording_.origin().value_or(here), axes_);
-    const bool near = !far_away(anchor.to_local(here));
-    target.frames.emplace(anchor, axes_);
-    for (const auto& filter : filters_) {
-      const bool stays = fixed_ || near || filter.start == StartRule::given || has_home(filter);
-      target.frames->add(stays ? anchor : LocalFrame(here, axes_), filter.smooth);
-    }
+  /// Lets the target begin at its first place on the Earth. Where errors or a radar are about one point, the frame of
+  /// all stays there.
+  void begin(Target& target, const AnyPlot& plot) {
+    std::optional<Geodetic> here = recording_.geodetic() ? place_of(plot, axes_) : std::nullopt;
+    if (places_.frame()) here = places_.frame()->origin();
+    if (!here) return;
+    if (!file_anchor_) file_anchor_ = recording_.origin().value_or(*here);
+    for (EarthTarget& filter : target.filters)
+      filter.begin(fixed_ ? *file_anchor_ : recording_.origin().value_or(*here), *here, !fixed_);
   }
 
   /// Where a row's measurement was, about where positions are counted from.
-  std::optional<Position> where(const Row& row, const Target& target) const {
+  std::optional<Position> where(const Row& row, Target& target) const {
     if (!recording_.geodetic() || row.plot.sensor != AnyPlot::Sensor::components) return position_of(row.plot, axes_);
-    if (axes_seen(row.plot, axes_) == 0) return std::nullopt;
-    return target.frames->anchor().to_local(place_of(row.plot, axes_, 0.0));
+    if (!target.anchor() || axes_seen(row.plot, axes_) == 0) return std::nullopt;
+    target.last_place = place_of(row.plot, axes_).value_or(target.last_place);
+    target.last_place.altitude_m = axes_ == 3 ? component_of(row.plot, 2).value_or(0.0) : 0.0;
+    return target.anchor()->to_local(target.last_place);
   }
 
   /// What a row measured, perhaps by a simulated radar.
@@ -176,14 +173,13 @@ class TrackRun {
         for (std::size_t axis = 0; axis < 3; ++axis) sums.error[axis].add((*position)[axis] - (*row.truth)[axis]);
       });
     if (!sinks_.page) return;
-    sinks_.page->measured(row, position,
-                          target.frames ? std::optional(target.frames->anchor().origin()) : std::nullopt);
+    sinks_.page->measured(row, position, target.anchor() ? std::optional(target.anchor()->origin()) : std::nullopt);
   }
 
   /// Whether the standard conversion of a radar's measurement to a position is biased.
   bool is_unsuited(const Row& row) const {
     using enum AnyPlot::Sensor;
-    if (row.plot.sensor != polar && row.plot.sensor != doppler) return false;
+    if ((row.plot.sensor != polar && row.plot.sensor != doppler) || row.plot.size < axes_) return false;
     return std::ranges::any_of(filters_, [&](const FilterSettings& filter) {
       const Accuracy& own = filter.accuracy_of(row.sensor);
       const bool converts =
@@ -232,59 +228,43 @@ class TrackRun {
 
   /// Leads a row through a filter. Returns the last of what that tells.
   TargetPoint follow(Target& target, std::size_t f, const Row& row) {
-    AnyTarget& filter = target.filters[f];
+    EarthTarget& filter = target.filters[f];
     TargetPoint last;
+    const auto visit = [&](const TargetPoint& point) {
+      if (!filters_[f].smooth && !point.is_start) tell(target, f, point);
+      last = point;
+    };
     try {
-      const bool moves = target.frames && !fixed_ && !has_home(filters_[f]);
-      if (moves && row.predicted && filter.running())
-        target.frames->move(f, filter, filter.output(), row.plot.tag, true);
-      const AnyPlot plot = plot_for(target, f, row);
-      filter.follow({&plot, 1}, [&](const TargetPoint& point) {
-        if (!filters_[f].smooth && !point.is_start) tell(target, f, point);
-        last = point;
-      });
-      if (moves && !row.predicted && filter.running()) target.frames->move(f, filter, last, row.plot.tag, false);
+      if (row.predicted)
+        filter.predict(row.plot.time, row.plot.tag, visit);
+      else
+        filter.follow_in_frame(plot_for(filter, filters_[f], row), visit);
     } catch (const std::logic_error& error) {
       refuse_failure(f, row, error);
     }
     return last;
   }
 
-  /// What a row measures, in the frame of the filter and with the covariances that it believes.
-  AnyPlot plot_for(const Target& target, std::size_t f, const Row& row) {
-    const AnyTarget& filter = target.filters[f];
+  /// What a row measures, in the frame of the filter and with the covariances that it believes. It starts from whole
+  /// positions, or bearings, or as given.
+  AnyPlot plot_for(const EarthTarget& filter, const FilterSettings& settings, const Row& row) const {
     AnyPlot plot = row.plot;
-    const bool geodetic = target.frames && recording_.geodetic();
-    const bool starts_from_it = filters_[f].start != StartRule::given || geodetic;
-    if (!filter.running() && starts_from_it && !crosses_ && axes_seen(plot, axes_) < axes_) {
-      plot = AnyPlot::missed(plot.time);
-      plot.tag = row.plot.tag;
-    } else if (geodetic && plot.sensor == AnyPlot::Sensor::components) {
-      const LocalFrame& frame = target.frames->now(f);
-      const int seen = axes_seen(plot, axes_);
-      Position at{};
-      double altitude = 0.0;
-      if (seen < axes_) {  // what the row does not tell is at the target's, which goes on until then
-        const TargetPoint last = filter.output();
-        const auto n = static_cast<std::size_t>(axes_);
-        for (std::size_t i = 0; i < n; ++i)
-          at[i] = last.mean[i] + (i + n < last.mean.size() ? (plot.time - last.time) * last.mean[i + n] : 0.0);
-        altitude = frame.to_geodetic(at).altitude_m;
-      }
-      if (seen > 0) at = frame.to_local(place_of(plot, axes_, altitude));
-      plot = in_frame(plot, frame, at, axes_);
-    }
-    return believed(filters_[f], row.sensor, plot, axes_);
+    if (recording_.geodetic() && plot.sensor == AnyPlot::Sensor::components)
+      plot = filter.anchor() ? filter.in_frame(plot) : AnyPlot{.time = plot.time, .tag = plot.tag};
+    const bool starts_anywhere = (settings.start == StartRule::given && !recording_.geodetic()) || crosses_;
+    if (!filter.running() && !starts_anywhere && axes_seen(plot, axes_) < axes_)
+      return {.time = plot.time, .tag = plot.tag};
+    return believed(settings, row.sensor, plot, axes_);
   }
 
   /// How far a measurement is from where a filter expects it, in m; 0 where it tells no position.
   double distance(const Target& target, std::size_t f, const Row& row, const TargetPoint& expected) const {
-    std::optional<Position> at = position_of(row.plot, axes_);
-    if (!at || expected.mean.empty()) return 0.0;
-    if (target.frames && recording_.geodetic() && row.plot.sensor == AnyPlot::Sensor::components)
-      at = target.frames->now(f).to_local(place_of(row.plot, axes_, 0.0));
+    if (expected.mean.empty()) return 0.0;
+    const EarthTarget& filter = target.filters[f];
+    const bool on_earth = recording_.geodetic() && row.plot.sensor == AnyPlot::Sensor::components;
+    const auto at = position_of(on_earth ? filter.in_frame(row.plot) : row.plot, axes_);
     double squares = 0.0;
-    for (std::size_t i = 0; i < static_cast<std::size_t>(axes_); ++i)
+    for (std::size_t i = 0; at && i < static_cast<std::size_t>(axes_); ++i)
       squares += ((*at)[i] - expected.mean[i]) * ((*at)[i] - expected.mean[i]);
     return std::sqrt(squares);
   }
@@ -321,7 +301,11 @@ class TrackRun {
     }
     if (!estimates_ && !sinks_.page) return;
     std::optional<Geodetic> place;
-    if (target.frames) place = target.frames->to_anchor(f, point, row.predicted && !fixed_ && !has_home(filter));
+    if (target.anchor()) {
+      EarthPoint on_earth = target.filters[f].on_earth(std::move(point), row.predicted);
+      place = on_earth.place;
+      point = std::move(on_earth);
+    }
     if (f == 0) target.tally.goes_to(point.mean, axes_);
     estimates_.write({row.track, filter, point, place});
     if (sinks_.page) sinks_.page->estimated(row, f, point, static_cast<int>(size));
@@ -333,7 +317,7 @@ class TrackRun {
       try {
         if (filters_[f].smooth)
           target.filters[f].smoothed([&](const TargetPoint& point) {
-            if (!point.is_start) tell(target, f, target.frames ? target.frames->smoothed(f, point) : point);
+            if (!point.is_start) tell(target, f, point);
           });
         if (filters_[f].explain) outcome_.filters[f].histories[name] = target.filters[f].explained();
       } catch (const std::logic_error& error) {
@@ -393,8 +377,8 @@ class TrackRun {
   TrackSinks sinks_;
   EstimatesFile estimates_{sinks_.files, filters_, recording_, options_.iso_times};
   TrackOutcome outcome_;
-  std::vector<AnyTarget> prototypes_;  // each filter before its first row
-  bool keeps_all_ = false;             // rows, if a filter is to be smoothed; else two
+  std::vector<EarthTarget> prototypes_;  // each filter before its first row
+  bool keeps_all_ = false;               // rows, if a filter is to be smoothed; else two
   std::map<std::string, Target, std::less<>> targets_;
   std::optional<Geodetic> file_anchor_;
   bool fixed_ =

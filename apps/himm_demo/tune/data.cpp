@@ -120,10 +120,10 @@ void read(const std::string& file, const TuneOptions& options, const FilterSetti
     if (!first && places.frame()) first = places.frame()->origin();
     checks.see(row, places.frame() ? &*places.frame() : nullptr);
     const bool is_place = recording.geodetic() && row.plot.sensor == AnyPlot::Sensor::components;
-    if (is_place && axes_seen(row.plot, data.axes) > 0) {
-      const Geodetic here = place_of(row.plot, data.axes, its.altitude_m), start = place_of(row.plot, data.axes, 0.0);
+    if (const auto start = place_of(row.plot, data.axes); is_place && start) {
+      const Geodetic here = *place_of(row.plot, data.axes, its.altitude_m);
       if (!first) first = start;
-      if (!its.frame) its.frame.emplace(one_frame ? *first : recording.origin().value_or(start), data.axes);
+      if (!its.frame) its.frame.emplace(one_frame ? *first : recording.origin().value_or(*start), data.axes);
       its.altitude_m = here.altitude_m;
       if (!std::isnan(here.altitude_m)) its.at = its.frame->to_local(here);
     }

@@ -18,6 +18,8 @@ namespace detail {
 
 /// Range, azimuth and, with three axes, elevation.
 void polar(int axes, const double* origin, const double* position, double* z, double* H);
+/// Range and azimuth, in space.
+void slant(const double* origin, const double* position, double* z, double* H);
 /// Azimuth.
 void bearing(const double* origin, const double* position, double* z, double* H);
 /// What `polar` sees, and the rate of the range; of position and velocity.

@@ -152,6 +152,18 @@ class PolarSensor : public detail::RadarSensor<PolarSensor<Axes>, Axes, Axes, Ax
   }
 };
 
+/// A radar in space that measures no elevation: the slant range and the azimuth. By itself it tells no position.
+class SlantSensor : public detail::RadarSensor<SlantSensor, 3, 2, 3> {
+ public:
+  using RadarSensor::RadarSensor;
+
+  Gaussian<3> position(const Gaussian<2>& z) const = delete;
+
+  void compute(const double* position, int, double* z, double* H) const {
+    detail::slant(origin_.data(), position, z, H);
+  }
+};
+
 /// Measures only the azimuth of a target, counter-clockwise from x in rad, as seen from `origin`. Differences are
 /// wrapped. One such sensor that stands still does not tell the range.
 class BearingSensor : public detail::ComputedSensor<BearingSensor, 1, 2> {

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <span>
 
 namespace sigmax {
@@ -18,7 +19,8 @@ struct AnyPlot {
   enum class Sensor {
     none,        ///< there was no measurement
     position,    ///< x, y[, z] in m
-    polar,       ///< range in m, azimuth counter-clockwise from x[, elevation] in rad, seen from `origin`
+    polar,       ///< range in m, azimuth counter-clockwise from x[, elevation] in rad, seen from `origin`; in space a
+                 ///< radar may have no elevation
     bearing,     ///< azimuth alone
     components,  ///< those of the state at `places`
     doppler      ///< as polar, and the rate of the range in m/s
@@ -39,7 +41,7 @@ struct AnyPlot {
   /// Along 1, 2 or 3 axes, in m.
   static AnyPlot position(double time, std::span<const double> z, std::span<const double> covariance);
 
-  /// Range in m and azimuth, in three axes also the elevation, in rad.
+  /// Range in m and azimuth, in three axes perhaps also the elevation, in rad.
   static AnyPlot polar(double time, std::span<const double> z, std::span<const double> covariance,
                        const std::array<double, 3>& origin = {});
 
@@ -57,5 +59,15 @@ struct AnyPlot {
   /// Of the quantity number i, from 0.
   double variance(int i) const { return covariance[static_cast<std::size_t>(i * (size + 1))]; }
 };
+
+/// The number of a position or of components that is this component of the state: those of the position come first,
+/// then of the velocity.
+std::optional<double> component_of(const AnyPlot& plot, int component);
+
+/// Along how many of so many axes a plot tells the position; a radar's without an elevation, of three, along two.
+int axes_seen(const AnyPlot& plot, int axes);
+
+/// Whether components hold some of the velocity.
+bool is_moving(const AnyPlot& plot, int axes);
 
 }  // namespace sigmax

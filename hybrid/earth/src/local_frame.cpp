@@ -1,16 +1,11 @@
-#include "table/geodesy.hpp"
+#include <sigmax/earth/local_frame.hpp>
 
 #include <GeographicLib/AzimuthalEquidistant.hpp>
 #include <GeographicLib/LocalCartesian.hpp>
-#include <cmath>
-#include <stdexcept>
+#include <numbers>
 #include <vector>
 
-#include <fmt/core.h>
-
-#include "shell/numbers.hpp"
-
-namespace sigmax::apps {
+namespace sigmax {
 namespace {
 
 using GeographicLib::AzimuthalEquidistant;
@@ -22,22 +17,10 @@ LocalCartesian cartesian(const Geodetic& origin) {
 
 }  // namespace
 
-Geodetic Geodetic::checked(double latitude_deg, double longitude_deg, double altitude_m) {
-  if (!(std::abs(latitude_deg) <= 90.0))
-    throw std::invalid_argument(fmt::format("latitude {}°, expected −90° to 90°", latitude_deg));
-  if (!(std::abs(longitude_deg) <= 360.0))
-    throw std::invalid_argument(fmt::format("longitude {}°, expected −360° to 360°", longitude_deg));
-  if (!std::isfinite(altitude_m))
-    throw std::invalid_argument(fmt::format("altitude {} m, expected a finite number", altitude_m));
-  return {latitude_deg, longitude_deg, altitude_m};
-}
-
 Position LocalFrame::to_local(const Geodetic& point) const {
   Position p{};
   if (axes_ == 3)
     cartesian(origin_).Forward(point.latitude_deg, point.longitude_deg, point.altitude_m, p[0], p[1], p[2]);
-  else if (axes_ == 1)
-    p[0] = point.altitude_m - origin_.altitude_m;
   else
     AzimuthalEquidistant().Forward(origin_.latitude_deg, origin_.longitude_deg, point.latitude_deg, point.longitude_deg,
                                    p[0], p[1]);
@@ -48,8 +31,6 @@ Geodetic LocalFrame::to_geodetic(const Position& p) const {
   Geodetic point;
   if (axes_ == 3)
     cartesian(origin_).Reverse(p[0], p[1], p[2], point.latitude_deg, point.longitude_deg, point.altitude_m);
-  else if (axes_ == 1)
-    point = {origin_.latitude_deg, origin_.longitude_deg, origin_.altitude_m + p[0]};
   else
     AzimuthalEquidistant().Reverse(origin_.latitude_deg, origin_.longitude_deg, p[0], p[1], point.latitude_deg,
                                    point.longitude_deg);
@@ -65,7 +46,8 @@ std::array<Position, 3> LocalFrame::local_axes(const Position& p) const {
     cartesian(origin_).Reverse(p[0], p[1], p[2], latitude, longitude, altitude, back);
     for (std::size_t i = 0; i < 3; ++i)
       for (std::size_t j = 0; j < 3; ++j) axes[i][j] = back[3 * j + i];
-  } else if (axes_ == 2 && (p[0] != 0.0 || p[1] != 0.0)) {
+  } else if (p[0] != 0.0 || p[1] != 0.0) {
+    constexpr double degree = std::numbers::pi / 180.0;
     const double here = std::atan2(p[0], p[1]) / degree;  // azimuths, in degrees
     double there = 0.0, shrinking = 1.0;
     AzimuthalEquidistant().Reverse(origin_.latitude_deg, origin_.longitude_deg, p[0], p[1], latitude, longitude, there,
@@ -81,4 +63,4 @@ std::array<Position, 3> LocalFrame::local_axes(const Position& p) const {
   return axes;
 }
 
-}  // namespace sigmax::apps
+}  // namespace sigmax

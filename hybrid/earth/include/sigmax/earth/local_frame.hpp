@@ -1,8 +1,9 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 
-namespace sigmax::apps {
+namespace sigmax {
 
 /// x, y and z, or east, north and up, in m; 0 along the axes that there are not.
 using Position = std::array<double, 3>;
@@ -11,14 +12,16 @@ using Position = std::array<double, 3>;
 struct Geodetic {
   double latitude_deg = 0.0, longitude_deg = 0.0, altitude_m = 0.0;
 
-  /// Throws std::invalid_argument unless |latitude| ≤ 90°, |longitude| ≤ 360° and the altitude is finite.
-  static Geodetic checked(double latitude_deg, double longitude_deg, double altitude_m);
+  /// Whether |latitude| ≤ 90°, |longitude| ≤ 360° and the altitude is finite.
+  bool is_valid() const {
+    return std::abs(latitude_deg) <= 90.0 && std::abs(longitude_deg) <= 360.0 && std::isfinite(altitude_m);
+  }
 };
 
 /// East, north and, with three axes, up about an origin. At a pole the origin's longitude says which way is north.
 ///
-/// Three axes are Cartesian; a single one is the height. Two axes are a map of the ellipsoid that keeps distances and
-/// directions from the origin (azimuthal equidistant), so that no point of the Earth comes out near another.
+/// Three axes are Cartesian. Two axes are a map of the ellipsoid that keeps distances and directions from the origin
+/// (azimuthal equidistant), so that no point of the Earth comes out near another.
 class LocalFrame {
  public:
   LocalFrame(const Geodetic& origin, int axes) : origin_(origin), axes_(axes) {}
@@ -39,4 +42,4 @@ class LocalFrame {
   int axes_;
 };
 
-}  // namespace sigmax::apps
+}  // namespace sigmax

@@ -1,0 +1,16 @@
+# GeographicLib::GeographicLib, by its own configuration or, as Debian's package has none, by its files.
+find_package(GeographicLib CONFIG QUIET GLOBAL)
+if(NOT TARGET GeographicLib::GeographicLib)
+  find_path(GEOGRAPHICLIB_INCLUDE_DIR GeographicLib/LocalCartesian.hpp)
+  find_library(GEOGRAPHICLIB_LIBRARY NAMES GeographicLib Geographic)
+  mark_as_advanced(GEOGRAPHICLIB_INCLUDE_DIR GEOGRAPHICLIB_LIBRARY)
+  if(GEOGRAPHICLIB_INCLUDE_DIR AND GEOGRAPHICLIB_LIBRARY)
+    add_library(GeographicLib::GeographicLib UNKNOWN IMPORTED GLOBAL)
+    set_target_properties(GeographicLib::GeographicLib PROPERTIES
+      IMPORTED_LOCATION "${GEOGRAPHICLIB_LIBRARY}" INTERFACE_INCLUDE_DIRECTORIES "${GEOGRAPHICLIB_INCLUDE_DIR}")
+  endif()
+endif()
+set(GeographicLib_FOUND FALSE)
+if(TARGET GeographicLib::GeographicLib)
+  set(GeographicLib_FOUND TRUE)
+endif()
