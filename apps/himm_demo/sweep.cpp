@@ -1,236 +1,175 @@
 #include "himm_demo/subcommands.hpp"
 
-#include "himm_demo/experiment/experiment.hpp"
+#ifdef SIGMAX_TUNING
+#include <sigmax/tuning/search.hpp>
+#else
+#include <sigmax/hybrid/fit.hpp>
+#endif
+
+#include "himm_demo/experiment/tally.hpp"
 #include "report/result.hpp"
-#include "study/statistic.hpp"
-#include "study/study.hpp"
 #include "version.hpp"
 
 namespace sigmax::apps {
 namespace {
 
-/// What decides every figure of `himm_demo sweep`.
-struct SweepChoice {
+/// What a condition has otherwise than the paper, as multiples: the noise of the radar, believed over true; the
+/// sampling period; the acceleration and the length of the manoeuvre.
+enum Factor : std::size_t { noise, period, strength, length };
+constexpr std::array factor_names = {"noise", "period", "strength", "length"};
+
+using Numbers = std::vector<double>;
+
+#ifndef SIGMAX_TUNING
+struct SearchOptions {
+  std::size_t samples, starts, local;
+};
+template <class Loss>
+Fit search(const std::vector<FitParameter>&, const Loss&, const SearchOptions&) {
+  throw InputError(
+      "this himm_demo was built without an optimiser; install libnlopt-cxx-dev, run cmake again and build it");
+}
+#endif
+
+/// The options of `himm_demo sweep`, nearly all of which decide its figures.
+struct SweepOptions {
   std::vector<int> scenarios = {1, 2};
-  std::vector<double> mismatch = {0.5, 1.0, 2.0};  ///< of the radar's noise: believed over true
-  std::vector<double> period = {0.5, 1.0, 2.0};    ///< of sampling, times the paper's
-  std::vector<double> strength = {0.25, 0.5, 1.0, 2.0};
-  std::vector<double> length = {0.5, 1.0, 2.0};
+  std::array<Numbers, 4> factors = {{{0.5, 1.0, 2.0}, {0.5, 1.0, 2.0}, {0.25, 0.5, 1.0, 2.0}, {0.5, 1.0, 2.0}}};
   bool cross = false;  ///< every combination of these rather than each alone, the others being 1
   std::vector<std::string> filters = {"imm",           "himm_selected", "himm_own", "himm_own_recentred",
                                       "himm_released", "gpb2",          "viterbi"};
-  std::vector<double> probability = {0.02, 0.05, 0.15};  ///< the off-diagonals of P, each row apart
-  std::vector<double> possibility = {0.05, 0.2, 0.5};    ///< the same of Π
-  std::vector<double> sigma_w = {1.0, 3.0, 9.0};         ///< of each model apart
+  /// @{
+  /// What is searched, from the least to the greatest of these; one number stays as it is.
+  Numbers probability = {1e-6, 0.9};  ///< the off-diagonals of P, each row apart
+  Numbers possibility = {1e-6, 1.0};  ///< the same of Π
+  Numbers sigma_w = {0.1, 100.0};     ///< of each model apart
   std::vector<std::string> lifts = {"zero", "borrowed_variance", "unbiased"};
-  int beyond = 6;  ///< steps by which the search may leave a list of numbers, at each end
+  /// @}
   int tuning_runs = 20;
   int runs = 100;
   std::uint64_t seed = 1;
+  Sharing sharing;
+  OutputOptions output;
 };
 
-/// One situation in which filters are compared, as multiples of the paper's.
+/// One situation in which filters are compared.
 struct SweepCondition {
   int scenario;
-  double mismatch = 1.0, period = 1.0, strength = 1.0, length = 1.0;
+  std::array<double, 4> factors{1.0, 1.0, 1.0, 1.0};
 
   bool operator==(const SweepCondition&) const = default;
 };
 
-/// Where settings of a filter are on its lattice: of four numbers, and of the lift.
-using Place = std::array<std::size_t, 5>;
-
-/// What may be tried of one setting: a list of numbers in ascending order, continued at both ends, or things without an
-/// order.
-struct Axis {
-  std::vector<double> numbers;
-  std::size_t first = 0, last = numbers.size() - 1;  ///< of the list itself
-  bool more_below = false, more_above = false;       ///< whether such numbers were left out
-  bool ordered = true;
-};
-
-/// The settings of a filter that did best on the tuning runs, and what they did on others.
-struct Tuned {
-  Place place;
-  bool at_the_limit;    ///< whether the search for them ended where it was not allowed to go on
-  double tuning_score;  ///< the mean over axes and phases of RMSE over that of the measurement
-  std::size_t tried;    ///< how many settings were
-  Statistic score;      ///< the same as the tuning score, of other runs
-};
-
-/// The names in settings of the first lifts, in their order.
-constexpr std::array lift_names = {"zero", "borrowed_variance", "unbiased"};
-const char* name_of(Lift lift) { return lift_names.at(static_cast<std::size_t>(lift)); }
-
-/// The list, beyond each end by the ratio of the last two numbers, as many steps, in six digits, so that what a table
-/// says can be given again. One number is fixed and has no continuation.
-Axis continued(const std::vector<double>& list, double least, double greatest, int steps) {
-  Axis axis{.numbers = list};
-  if (list.size() == 1) return axis;
-  auto& numbers = axis.numbers;
-  const auto in_six_digits = [](double value) { return std::stod(fmt::format("{:.6g}", value)); };
-  const double down = list[0] / list[1], up = list.back() / list[list.size() - 2];
-  for (int i = 0; i < steps && numbers.back() < greatest; ++i)
-    numbers.push_back(std::min(in_six_digits(numbers.back() * up), greatest));
-  for (int i = 0; i < steps && numbers.front() > least; ++i, ++axis.first, ++axis.last)
-    numbers.insert(numbers.begin(), std::max(in_six_digits(numbers.front() * down), least));
-  axis.more_below = numbers.front() > least;
-  axis.more_above = numbers.back() < greatest;
-  return axis;
-}
-
-/// Every combination of the lists. The last axis changes fastest.
-std::vector<Place> grid(const std::vector<Axis>& lattice) {
-  std::vector<Place> all = {Place{}};
-  for (std::size_t i = 0; i < lattice.size(); ++i) {
-    std::vector<Place> more;
-    for (Place place : all)
-      for (place[i] = lattice[i].first; place[i] <= lattice[i].last; ++place[i]) more.push_back(place);
-    all = std::move(more);
-  }
-  return all;
-}
-
-/// The places one step along one axis.
-std::vector<Place> neighbours(const std::vector<Axis>& lattice, const Place& place) {
-  std::vector<Place> all;
-  for (std::size_t i = 0; i < lattice.size(); ++i)
-    for (std::size_t at = 0; at < lattice[i].numbers.size(); ++at)
-      if (lattice[i].ordered ? at + 1 == place[i] || at == place[i] + 1 : at != place[i]) {
-        all.push_back(place);
-        all.back()[i] = at;
-      }
-  return all;
-}
-
-/// Whether a number is the last one before those left out, so that better ones may be beyond.
-bool at_the_limit(const std::vector<Axis>& lattice, const Place& place) {
-  for (std::size_t i = 0; i < lattice.size(); ++i)
-    if ((place[i] == 0 && lattice[i].more_below) ||
-        (place[i] + 1 == lattice[i].numbers.size() && lattice[i].more_above))
-      return true;
-  return false;
-}
-
-constexpr std::size_t of_a_place = std::tuple_size_v<Place>;
-using Squares = std::array<double, squares>;
-
-void add_run(const Scenario& scenario, const FilterSettings& filter, const Recording& recording, Squares& sums) {
-  Errors error(recording.truth.size(), Vector<3>::Constant(nan));
-  follow(filter, scenario.step_s, recording, [&](const TargetPoint& point) {
-    error[point.tag] = Vector<3>(point.mean.data()) - recording.truth[point.tag].head<3>();
-  });
-  add_squares(scenario, error, sums.data());
-}
-
-double score(const Squares& filter, const Squares& measurement) {
-  double sum = 0.0;
-  for (std::size_t i = 0; i < squares; ++i) sum += std::sqrt(filter[i] / measurement[i]);
-  return std::isfinite(sum) ? sum / squares : infinity;
-}
-
-std::vector<SweepCondition> conditions_of(const SweepChoice& choice) {
+std::vector<SweepCondition> conditions_of(const SweepOptions& options) {
   std::vector<SweepCondition> all;
-  const auto add = [&](const SweepCondition& condition) {
-    if (std::ranges::find(all, condition) == all.end()) all.push_back(condition);
-  };
-  for (const int scenario : choice.scenarios) {
-    if (choice.cross) {
-      for (const double mismatch : choice.mismatch)
-        for (const double period : choice.period)
-          for (const double strength : choice.strength)
-            for (const double length : choice.length) add({scenario, mismatch, period, strength, length});
-      continue;
+  for (const int scenario : options.scenarios) {
+    std::vector<SweepCondition> own = {{scenario}};
+    for (std::size_t i = 0; i < factor_names.size(); ++i) {
+      const std::vector<SweepCondition> before = options.cross ? std::exchange(own, {}) : std::vector{own.front()};
+      for (SweepCondition condition : before)
+        for (const double factor : options.factors[i]) {
+          condition.factors[i] = factor;
+          if (std::ranges::find(own, condition) == own.end()) own.push_back(condition);
+        }
     }
-    add({scenario});
-    for (const double mismatch : choice.mismatch) add({.scenario = scenario, .mismatch = mismatch});
-    for (const double period : choice.period) add({.scenario = scenario, .period = period});
-    for (const double strength : choice.strength) add({.scenario = scenario, .strength = strength});
-    for (const double length : choice.length) add({.scenario = scenario, .length = length});
+    all.insert(all.end(), own.begin(), own.end());
   }
   return all;
 }
 
-std::string list(const std::vector<double>& numbers) {
-  return fmt::format("{}", fmt::join(each(numbers, shortest), ","));
-}
-
-/// The command that does the same again.
-std::string command_of(const SweepChoice& choice) {
-  return fmt::format(
-      "himm_demo {} sweep --scenario {} --mismatch {} --period {} --strength {} --length {} --filters {} --probability "
-      "{} --possibility {} --sigma-w {} --lift {} --beyond {} --tuning-runs {} --runs {} --seed {}{}",
-      version, fmt::join(choice.scenarios, ","), list(choice.mismatch), list(choice.period), list(choice.strength),
-      list(choice.length), fmt::join(choice.filters, ","), list(choice.probability), list(choice.possibility),
-      list(choice.sigma_w), fmt::join(choice.lifts, ","), choice.beyond, choice.tuning_runs, choice.runs, choice.seed,
-      choice.cross ? " --cross" : "");
+/// "1, strength ×0.5".
+std::string words_of(const SweepCondition& condition) {
+  std::string text = fmt::format("{}", condition.scenario);
+  for (std::size_t i = 0; i < factor_names.size(); ++i)
+    if (condition.factors[i] != 1.0) text += fmt::format(", {} ×{:g}", factor_names[i], condition.factors[i]);
+  return text;
 }
 
 /// The scenario of the paper with another sampling period, and a manoeuvre of another strength and length.
 Scenario scenario_of(const SweepCondition& condition) {
   Scenario result = scenario(condition.scenario, Preset::paper_text);
   const auto scaled = [&](int samples, double factor) {
-    return std::max(1, static_cast<int>(std::lround(samples * factor / condition.period)));
+    return std::max(1, static_cast<int>(std::lround(samples * factor / condition.factors[period])));
   };
   const auto& own = result.phases;
   const int before = std::max(own[0].first + 1, scaled(own[0].last, 1.0));
-  const int during = scaled(own[1].last - own[1].first + 1, condition.length);
+  const int during = scaled(own[1].last - own[1].first + 1, condition.factors[length]);
   const int after = scaled(own[2].last - own[2].first + 1, 1.0);
-  result.step_s *= condition.period;
-  result.acceleration *= condition.strength;
+  result.step_s *= condition.factors[period];
+  result.acceleration *= condition.factors[strength];
   result.last_accelerated = before + during;
   result.phases = {
       {{own[0].first, before}, {before + 1, before + during}, {before + during + 1, before + during + after}}};
   return result;
 }
 
+/// The settings of a filter that did best on the tuning runs, and what they did on others. The score is the mean over
+/// axes and phases of RMSE over that of the measurement.
+struct Tuned {
+  Numbers numbers;  ///< leaving, returning, and sigma_w of both models
+  std::size_t lift;
+  double tuning_score;
+  std::size_t tried;  ///< how many settings were
+  Statistic score{};
+};
+
+/// Whether zero is outside of it.
+bool sure(const Interval& interval) { return interval.above_zero() || interval.below_zero(); }
+
 /// All conditions and filters, and what was found of them.
 class SweepWorld {
  public:
-  SweepChoice choice;
-  std::vector<SweepCondition> conditions = conditions_of(choice);
+  const SweepOptions& options;
+  std::vector<SweepCondition> conditions = conditions_of(options);
   std::vector<FilterSettings> filters;
-  std::vector<Tuned> all_tuned;  ///< by condition and filter
+  std::vector<Tuned> all_tuned{};  ///< by condition and filter
 
   /// Throws InputError for a filter that there is not.
-  explicit SweepWorld(SweepChoice what) : choice(std::move(what)) {
-    for (auto* const list : {&choice.probability, &choice.possibility, &choice.sigma_w}) {
-      std::sort(list->begin(), list->end());
-      list->erase(std::unique(list->begin(), list->end()), list->end());
-    }
-    const std::vector<std::string> sets = {fmt::format("filters=[{}]", fmt::join(choice.filters, ","))};
+  explicit SweepWorld(const SweepOptions& what) : options(what) {
+    const std::vector<std::string> sets = {fmt::format("filters=[{}]", fmt::join(options.filters, ","))};
     filters = read_filters(Settings::read({}, sets), FilterDefaults::of(Preset::paper_text, group(1, 1)));
   }
 
   /// Tunes each filter in each condition and judges it on other runs. A cell is condition · filters + filter.
   Study study() const {
-    return {"cells", conditions.size() * filters.size(),
-            [this](std::size_t cell) { return work(cell / filters.size(), cell % filters.size()); },
-            command_of(choice)};
+    const auto list = [](const Numbers& numbers) { return fmt::format("{}", fmt::join(each(numbers, shortest), ",")); };
+    return {
+        "cells", conditions.size() * filters.size(),
+        [this](std::size_t cell) { return work(cell / filters.size(), cell % filters.size()); },
+        fmt::format("himm_demo {} sweep --scenario {} --mismatch {} --period {} --strength {} --length {} --filters "
+                    "{} --probability {} --possibility {} --sigma-w {} --lift {} --tuning-runs {} --runs {} --seed "
+                    "{}{}",
+                    version, fmt::join(options.scenarios, ","), list(options.factors[noise]),
+                    list(options.factors[period]), list(options.factors[strength]), list(options.factors[length]),
+                    fmt::join(options.filters, ","), list(options.probability), list(options.possibility),
+                    list(options.sigma_w), fmt::join(options.lifts, ","), options.tuning_runs, options.runs,
+                    options.seed, options.cross ? " --cross" : "")};
   }
+
   /// Of the next cell.
   void add(const Study::Row& row) {
-    Place place{};
-    for (std::size_t i = 0; i < of_a_place; ++i) place[i] = static_cast<std::size_t>(row[i]);
-    constexpr std::size_t of_a_batch = 1 + 2 * squares;
-    Batches batches(of_a_batch);
-    for (auto rest = std::span(row).subspan(of_a_place + 2); !rest.empty(); rest = rest.subspan(of_a_batch))
-      batches.add(rest.first(of_a_batch));
-    const auto ratio = [&](std::size_t i) { return sqrt(batches.mean(1 + squares + i)) / sqrt(batches.mean(1 + i)); };
-    Statistic sum = ratio(0);
-    for (std::size_t i = 1; i < squares; ++i) sum = sum + ratio(i);
-    all_tuned.push_back({place, at_the_limit(lattice(all_tuned.size() % filters.size()), place), row[of_a_place],
-                         static_cast<std::size_t>(row[of_a_place + 1]), sum * (1.0 / squares)});
+    all_tuned.push_back({Numbers(row.begin(), row.begin() + 4), static_cast<std::size_t>(row[4]), row[5],
+                         static_cast<std::size_t>(row[6]), Statistic::of(std::span(row).subspan(7))});
   }
 
   const Tuned& tuned(std::size_t condition, std::size_t f) const { return all_tuned[condition * filters.size() + f]; }
 
-  /// How many settings are on the lists of a filter.
-  std::size_t listed_settings(std::size_t f) const { return grid(lattice(f)).size(); }
-
   /// The settings that were chosen.
   FilterSettings settings(std::size_t condition, std::size_t f) const {
-    return settings(condition, f, tuned(condition, f).place);
+    return settings(condition, f, tuned(condition, f).numbers, tuned(condition, f).lift);
+  }
+
+  /// Whether there may be better ones beyond the ends of what was searched.
+  bool at_the_limit(std::size_t cell) const {
+    for (std::size_t i = 0; i < 4; ++i) {
+      constexpr double near = 1.1;
+      const Numbers& range = this->range(cell % filters.size(), i);
+      const double number = all_tuned[cell].numbers[i];
+      const bool is_natural = i < 2 && range.back() >= 0.9;  // the greatest that means something
+      if (range.size() > 1 && (number < near * range.front() || (number * near > range.back() && !is_natural)))
+        return true;
+    }
+    return false;
   }
 
   /// The place of the IMM among the filters, and of the fuzzy interacting filter whose score on the tuning runs is the
@@ -255,106 +194,83 @@ class SweepWorld {
   }
 
  private:
-  std::vector<Axis> lattice(std::size_t f) const {
-    const bool fuzzy = filters[f].fuzzy;
-    const Axis off_diagonal =
-        continued(fuzzy ? choice.possibility : choice.probability, 1e-12, fuzzy ? 1.0 : 0.9, choice.beyond);
-    const Axis sigma_w = continued(choice.sigma_w, 1e-6, 1e6, choice.beyond);
-    const Axis lift{.numbers = std::vector<double>(choice.lifts.size()), .ordered = false};
-    return {off_diagonal, off_diagonal, sigma_w, sigma_w, lift};
+  const Numbers& range(std::size_t f, std::size_t number) const {
+    return number > 1 ? options.sigma_w : filters[f].fuzzy ? options.possibility : options.probability;
   }
-  FilterSettings settings(std::size_t condition, std::size_t f, const Place& place) const {
-    const std::vector<Axis> lattice = this->lattice(f);
-    const auto number = [&](std::size_t axis) { return lattice[axis].numbers[place[axis]]; };
-    const double leaving = number(0), returning = number(1);
-    const double mismatch = conditions[condition].mismatch;
+  FilterSettings settings(std::size_t condition, std::size_t f, const Numbers& numbers, std::size_t lift) const {
+    const double mismatch = conditions[condition].factors[noise];
     const Polar sigma = group(1, conditions[condition].scenario).data;
     FilterSettings own = filters[f];
     own.accuracy.radar = {mismatch * sigma.range, mismatch * sigma.azimuth, mismatch * sigma.elevation};
-    own.transition = {{own.fuzzy ? 1.0 : 1.0 - leaving, leaving}, {returning, own.fuzzy ? 1.0 : 1.0 - returning}};
-    for (const std::size_t model : {0U, 1U}) own.motions[model][MotionParameter::sigma_w] = number(2 + model);
-    own.lift = static_cast<Lift>(std::ranges::find(lift_names, choice.lifts[place.back()]) - lift_names.begin());
+    own.transition = {{own.fuzzy ? 1.0 : 1.0 - numbers[0], numbers[0]},
+                      {numbers[1], own.fuzzy ? 1.0 : 1.0 - numbers[1]}};
+    for (const std::size_t model : {0U, 1U}) own.motions[model][MotionParameter::sigma_w] = numbers[2 + model];
+    own.lift = options.lifts[lift] == "zero"       ? Lift::zero
+               : options.lifts[lift] == "unbiased" ? Lift::unbiased
+                                                   : Lift::borrowed_variance;
     return own;
   }
-  Recording recording(std::size_t condition, int number) const {
-    RandomStream random(choice.seed, static_cast<std::uint64_t>(number));
-    return simulate(scenario_of(conditions[condition]), group(1, conditions[condition].scenario).data, random);
+  Tally tally(std::size_t condition, const FilterSettings& filter) const {
+    const SweepCondition& own = conditions[condition];
+    return Tally({scenario_of(own), group(1, own.scenario), {filter}, options.runs, options.seed, 0});
   }
-  std::vector<double> scores_of(std::size_t condition, std::size_t f, const std::vector<Place>& places) const {
-    const Scenario scenario = scenario_of(conditions[condition]);
-    const auto tried = each(places, [&](const Place& place) { return settings(condition, f, place); });
-    Squares measured{};
-    std::vector<Squares> sums(places.size(), Squares{});
-    for (int run = 0; run < choice.tuning_runs; ++run) {
-      const Recording one = recording(condition, run);
-      add_squares(scenario, errors_of(one), measured.data());
-      for (std::size_t i = 0; i < places.size(); ++i) try {
-          add_run(scenario, tried[i], one, sums[i]);
-        } catch (const std::exception&) {
-          sums[i].fill(infinity);  // a filter that fails with bad settings has no good score
-        }
-    }
-    return each(sums, [&](const Squares& own) { return score(own, measured); });
-  }
-  // The best place with its score and how many were tried; then of each batch of runs their number, and the squares of
-  // the measurement and of the filter.
+
+  // What was tuned, as `add` takes it. All lifts are sampled alike, and the best one is searched further.
   Study::Row work(std::size_t condition, std::size_t f) const {
-    constexpr int most_batches = 25;
-    const Scenario scenario = scenario_of(conditions[condition]);
-    // The best of the grid, then from neighbour to better neighbour until none is better; the first of equals is taken.
-    Place best{};
-    double best_score = infinity;
-    std::set<Place> tried;
-    for (auto places = grid(lattice(f)); !places.empty();) {
-      const auto scores = scores_of(condition, f, places);
-      const auto least = std::ranges::min_element(scores);
-      const bool first = tried.empty();
-      tried.insert(places.begin(), places.end());
-      if (!first && *least >= best_score) break;
-      best = places[static_cast<std::size_t>(least - scores.begin())];
-      best_score = *least;
-      places = neighbours(lattice(f), best);
-      std::erase_if(places, [&](const Place& one) { return tried.contains(one); });
-    }
-    const FilterSettings tuned = settings(condition, f, best);
-    Study::Row row(best.begin(), best.end());
-    row.insert(row.end(), {best_score, static_cast<double>(tried.size())});
-    const int batches = std::min(most_batches, choice.runs);
-    for (int batch = 0; batch < batches; ++batch) {
-      Squares own{}, raw{};
-      const auto bound = [&](int at) { return static_cast<int>(static_cast<long>(choice.runs) * at / batches); };
-      for (int number = bound(batch); number < bound(batch + 1); ++number) {
-        const Recording one = recording(condition, choice.tuning_runs + number);
-        add_squares(scenario, errors_of(one), raw.data());
-        add_run(scenario, tuned, one, own);
-      }
-      row.push_back(bound(batch + 1) - bound(batch));
-      row.insert(row.end(), raw.begin(), raw.end());
-      row.insert(row.end(), own.begin(), own.end());
-    }
+    const auto whole = [&](const Numbers& free) {
+      Numbers numbers;
+      for (std::size_t i = 0, next = 0; i < 4; ++i)
+        numbers.push_back(range(f, i).size() == 1 ? range(f, i).front() : free[next++]);
+      return numbers;
+    };
+    const auto loss_of = [&](std::size_t lift) {
+      return [=, this](const Numbers& free) {
+        Tally tuning = tally(condition, settings(condition, f, whole(free), lift));
+        try {
+          tuning.add(tuning.row(0, static_cast<std::uint64_t>(options.tuning_runs)));
+        } catch (const std::runtime_error&) {
+          return infinity;  // a filter that fails with bad settings has no good score
+        }
+        return tuning.over_measurement(1).value();
+      };
+    };
+    std::vector<FitParameter> free;
+    for (std::size_t i = 0; i < 4; ++i)
+      if (const Numbers& all = range(f, i); all.size() > 1)
+        free.push_back({.name = fmt::format("{}", i),
+                        .start = i > 1              ? 3.0
+                                 : filters[f].fuzzy ? 0.5
+                                                    : 0.05,
+                        .least = all.front(),
+                        .most = all.back(),
+                        .step = std::min(0.5, 0.25 * std::log(all.back() / all.front()))});
+    Tuned best{{}, 0, infinity, 0};
+    const auto take = [&](std::size_t lift, const SearchOptions& how) {
+      const Fit found = search(free, loss_of(lift), how);
+      best.tried += found.evaluations;
+      if (!best.numbers.empty() && found.loss >= best.tuning_score) return;
+      best.lift = lift;
+      best.tuning_score = found.loss;
+      best.numbers = whole(found.values);
+      for (std::size_t i = 0; i < free.size(); ++i) free[i].start = found.values[i];
+    };
+    for (std::size_t lift = 0; lift < options.lifts.size(); ++lift)
+      take(lift, {.samples = 16, .starts = 1, .local = 12});
+    if (!free.empty()) take(best.lift, {.samples = 0, .starts = 1, .local = 40});
+
+    Tally judged = tally(condition, settings(condition, f, best.numbers, best.lift));
+    const int batches = std::min(25, options.runs);
+    const auto bound = [&](int batch) {
+      return static_cast<std::uint64_t>(options.tuning_runs + static_cast<long>(options.runs) * batch / batches);
+    };
+    for (int batch = 0; batch < batches; ++batch) judged.add(judged.row(bound(batch), bound(batch + 1)));
+    Study::Row row = best.numbers;
+    row.insert(row.end(), {static_cast<double>(best.lift), best.tuning_score, static_cast<double>(best.tried)});
+    const Numbers score = judged.over_measurement(1).numbers();
+    row.insert(row.end(), score.begin(), score.end());
     return row;
   }
 };
-
-struct SweepOptions {
-  SweepChoice choice;
-  Sharing sharing;
-  OutputOptions output;
-};
-
-/// "1, strength ×0.5".
-std::string words_of(const SweepCondition& condition) {
-  std::string text = fmt::format("{}", condition.scenario);
-  for (const auto& [name, factor] : {std::pair{"noise", condition.mismatch},
-                                     {"period", condition.period},
-                                     {"strength", condition.strength},
-                                     {"length", condition.length}})
-    if (factor != 1.0) text += fmt::format(", {} ×{:g}", name, factor);
-  return text;
-}
-
-/// Whether zero is outside of it.
-bool sure(const Interval& interval) { return interval.above_zero() || interval.below_zero(); }
 
 /// HIMM against the tuned IMM in words; nothing where one of them is missing.
 std::string answer(const SweepWorld& world) {
@@ -374,26 +290,20 @@ std::string answer(const SweepWorld& world) {
 
 /// How many settings were tried, and by how many runs.
 std::string searched(const SweepWorld& world) {
-  const SweepChoice& choice = world.choice;
-  std::string text = fmt::format("{} filters, {} settings each", world.filters.size(), world.listed_settings(0));
-  if (choice.beyond > 0) {
-    std::size_t tried = 0;
-    for (const Tuned& tuned : world.all_tuned) tried += tuned.tried;
-    text += fmt::format(
-        " and about {} with those on the way from the best to better neighbours, up to {} steps beyond a list",
-        tried / world.all_tuned.size(), choice.beyond);
-  }
-  return text + fmt::format("; chosen by {} runs and judged by {} others, seed {}", choice.tuning_runs, choice.runs,
-                            choice.seed);
+  std::size_t tried = 0;
+  for (const Tuned& tuned : world.all_tuned) tried += tuned.tried;
+  return fmt::format("{} filters, about {} settings each; chosen by {} runs and judged by {} others, seed {}",
+                     world.filters.size(), tried / world.all_tuned.size(), world.options.tuning_runs,
+                     world.options.runs, world.options.seed);
 }
 
 /// How many of the tuned filters are at the limit of the search; empty if none is.
 std::string limits(const SweepWorld& world) {
-  const auto stopped = std::ranges::count(world.all_tuned, true, &Tuned::at_the_limit);
+  std::size_t stopped = 0;
+  for (std::size_t cell = 0; cell < world.all_tuned.size(); ++cell) stopped += world.at_the_limit(cell) ? 1 : 0;
   if (stopped == 0) return "";
-  return fmt::format(
-      "{} of {} tuned filters {}: there may be better ones beyond.", stopped, world.all_tuned.size(),
-      world.choice.beyond == 0 ? "have a number at an end of its list" : "stopped at the limit beyond a list");
+  return fmt::format("{} of {} tuned filters have a number at an end of its range: there may be better ones beyond.",
+                     stopped, world.all_tuned.size());
 }
 
 /// Parts of the table of all filters in all conditions: with the numbers or the name of the condition, or for one.
@@ -403,52 +313,29 @@ struct ConditionPart {
 
 ResultTable filters_table(const SweepWorld& world) {
   ResultTable table;
-  for (std::size_t c = 0; c < world.conditions.size(); ++c)
-    for (std::size_t f = 0; f < world.filters.size(); ++f) {
-      const SweepCondition& condition = world.conditions[c];
-      const Tuned& tuned = world.tuned(c, f);
-      const FilterSettings settings = world.settings(c, f);
-      const auto sigma_w = [&](std::size_t model) { return settings.motions[model][MotionParameter::sigma_w]; };
-      const Cell above_imm = world.imm() ? Cell(world.against_imm(c, f)) : Cell();
-      table.row_of(
-          {{{.key = "scenario", .parts = ConditionPart::numbers}, condition.scenario},
-           {{.key = "noise", .parts = ConditionPart::numbers}, condition.mismatch},
-           {{.key = "period", .parts = ConditionPart::numbers}, condition.period},
-           {{.key = "strength", .parts = ConditionPart::numbers}, condition.strength},
-           {{.key = "length", .parts = ConditionPart::numbers}, condition.length},
-           {of_words("condition", "scenario", ConditionPart::name), words_of(condition)},
-           {of_words("filter", "filter"), settings.name},
-           {{.key = "leaving", .header = "leaving", .digits = 3, .sized = true}, settings.transition[0][1]},
-           {{.key = "returning", .header = "returning", .digits = 3, .sized = true}, settings.transition[1][0]},
-           {{.key = "sigma_w_dwna", .header = "dwna", .sized = true, .group = "σ_w, m/s²:"}, sigma_w(0)},
-           {{.key = "sigma_w_dwpa", .header = "dwpa", .sized = true, .group = "σ_w, m/s²:"}, sigma_w(1)},
-           {of_words("lift", "lift"), name_of(settings.lift)},
-           {{.key = "at_the_limit"}, tuned.at_the_limit ? 1 : 0},
-           {{.key = "settings_tried"}, tuned.tried},
-           {{.key = "tuning_score", .header = "tuning", .digits = 3, .group = "score:"}, tuned.tuning_score},
-           {{.key = "score", .header = "judged", .digits = 3, .interval = true, .group = "score:"},
-            tuned.score.interval()},
-           {{.key = "above_imm", .header = "% above imm", .digits = 1, .scale = 100.0, .interval = true}, above_imm},
-           {{.key = "is_himm"}, world.himm(c) == f ? 1 : 0}});
-    }
-  return table;
-}
-
-/// The score of the tuned IMM, and by how much the others are above it, with a mark where the interval is on one side
-/// of zero.
-ResultTable above_imm_table(const SweepWorld& world) {
-  ResultTable table;
-  for (std::size_t c = 0; c < world.conditions.size(); ++c) {
-    std::vector<Field> fields = {{of_words("", "scenario"), words_of(world.conditions[c])},
-                                 {{.header = "imm", .digits = 3}, world.tuned(c, *world.imm()).score.value()}};
-    const auto add = [&](const std::string& name, std::optional<std::size_t> f) {
-      const Interval above = f ? world.against_imm(c, *f) : Interval{};
-      fields.push_back({{.header = name, .group = "% above imm:"},
-                        f ? Cell(number_text(100.0 * above.mean, 1, true) + (sure(above) ? "*" : " ")) : Cell()});
-    };
-    for (std::size_t f = 0; f < world.filters.size(); ++f)
-      if (f != *world.imm()) add(world.filters[f].name, f);
-    add("himm", world.himm(c));
+  for (std::size_t cell = 0; cell < world.all_tuned.size(); ++cell) {
+    const std::size_t c = cell / world.filters.size(), f = cell % world.filters.size();
+    const SweepCondition& condition = world.conditions[c];
+    const Tuned& tuned = world.all_tuned[cell];
+    std::vector<Field> fields = {{{.key = "scenario", .parts = ConditionPart::numbers}, condition.scenario}};
+    for (std::size_t i = 0; i < factor_names.size(); ++i)
+      fields.push_back({{.key = factor_names[i], .parts = ConditionPart::numbers}, condition.factors[i]});
+    fields.insert(fields.end(),
+                  {{of_words("condition", "scenario", ConditionPart::name), words_of(condition)},
+                   {of_words("filter", "filter"), world.filters[f].name},
+                   {{.key = "leaving", .header = "leaving", .digits = 3, .sized = true}, tuned.numbers[0]},
+                   {{.key = "returning", .header = "returning", .digits = 3, .sized = true}, tuned.numbers[1]},
+                   {{.key = "sigma_w_dwna", .header = "dwna", .sized = true, .group = "σ_w, m/s²:"}, tuned.numbers[2]},
+                   {{.key = "sigma_w_dwpa", .header = "dwpa", .sized = true, .group = "σ_w, m/s²:"}, tuned.numbers[3]},
+                   {of_words("lift", "lift"), world.options.lifts[tuned.lift]},
+                   {{.key = "at_the_limit"}, world.at_the_limit(cell) ? 1 : 0},
+                   {{.key = "settings_tried"}, tuned.tried},
+                   {{.key = "tuning_score", .header = "tuning", .digits = 3, .group = "score:"}, tuned.tuning_score},
+                   {{.key = "score", .header = "judged", .digits = 3, .interval = true, .group = "score:"},
+                    tuned.score.interval()},
+                   {{.key = "above_imm", .header = "% above imm", .digits = 1, .scale = 100.0, .interval = true},
+                    world.imm() ? Cell(world.against_imm(c, f)) : Cell()},
+                   {{.key = "is_himm"}, world.himm(c) == f ? 1 : 0}});
     table.row_of(fields);
   }
   return table;
@@ -457,20 +344,48 @@ ResultTable above_imm_table(const SweepWorld& world) {
 /// Whom a column or a view of maps is of: a filter, or HIMM, which is another one in each condition.
 struct Choice {
   std::string name;
-  std::optional<std::size_t> filter;
+  std::optional<std::size_t> filter{};
 
   std::size_t in(const SweepWorld& world, std::size_t condition) const {
     return filter ? *filter : *world.himm(condition);
   }
 };
 
+/// All but the tuned IMM.
+std::vector<Choice> filters_but_imm(const SweepWorld& world) {
+  std::vector<Choice> all;
+  for (std::size_t f = 0; f < world.filters.size(); ++f)
+    if (f != world.imm()) all.push_back({world.filters[f].name, f});
+  return all;
+}
+
+/// The score of the tuned IMM, and by how much the others are above it, with a mark where the interval is on one side
+/// of zero.
+ResultTable above_imm_table(const SweepWorld& world) {
+  std::vector<Choice> choices = filters_but_imm(world);
+  choices.push_back({"himm"});
+  ResultTable table;
+  for (std::size_t c = 0; c < world.conditions.size(); ++c) {
+    std::vector<Field> fields = {{of_words("", "scenario"), words_of(world.conditions[c])},
+                                 {{.header = "imm", .digits = 3}, world.tuned(c, *world.imm()).score.value()}};
+    for (const Choice& choice : choices) {
+      Cell cell;
+      if (choice.filter || world.himm(c)) {
+        const Interval above = world.against_imm(c, choice.in(world, c));
+        cell = number_text(100.0 * above.mean, 1, true) + (sure(above) ? "*" : " ");
+      }
+      fields.push_back({{.header = choice.name, .group = "% above imm:"}, cell});
+    }
+    table.row_of(fields);
+  }
+  return table;
+}
+
 /// Makes maps of by how much filters are above the tuned IMM.
 class Maps {
  public:
   explicit Maps(const SweepWorld& world) : world_(world) {
-    if (world.himm(0)) choices_.push_back({"HIMM", {}});
-    for (std::size_t f = 0; f < world.filters.size(); ++f)
-      if (f != world.imm()) choices_.push_back({world.filters[f].name, f});
+    if (world.himm(0)) choices_.insert(choices_.begin(), {"HIMM"});
     std::vector<double> sizes;
     for (std::size_t c = 0; c < world.conditions.size(); ++c)
       sizes.push_back(std::abs(world.against_imm(c, choices_.front().in(world, c)).mean));
@@ -481,7 +396,7 @@ class Maps {
   /// Conditions by filters, a map for each scenario.
   std::vector<Panel> of_all_filters() const {
     std::vector<Panel> panels;
-    for (const int scenario : world_.choice.scenarios) {
+    for (const int scenario : world_.options.scenarios) {
       HeatMap map = empty(fmt::format("Scenario {}", scenario), "condition", "filter");
       map.columns = each(choices_, &Choice::name);
       std::vector<std::size_t> own;
@@ -499,27 +414,28 @@ class Maps {
 
   /// All conditions of a scenario, a view for each filter: strength and length by noise and period.
   std::vector<View> of_each_filter() const {
-    const SweepChoice& all = world_.choice;
-    const std::size_t lengths = all.length.size(), periods = all.period.size();
-    const auto names = [](const std::vector<double>& first, const std::vector<double>& second) {
+    const auto& all = world_.options.factors;
+    const auto names = [&](Factor first, Factor second) {
       std::vector<std::string> crossed;
-      for (const double a : first)
-        for (const double b : second) crossed.push_back(fmt::format("×{:g}, ×{:g}", a, b));
+      for (const double a : all[first])
+        for (const double b : all[second]) crossed.push_back(fmt::format("×{:g}, ×{:g}", a, b));
       return crossed;
     };
     std::vector<View> views;
     for (const Choice& choice : choices_) {
       View& view = views.emplace_back(View{choice.name, {}});
-      for (const int scenario : all.scenarios) {
+      for (const int scenario : world_.options.scenarios) {
         HeatMap map = empty(fmt::format("{}, scenario {}", choice.name, scenario), "strength, length of the manoeuvre",
                             "noise, period");
-        map.rows = names(all.strength, all.length);
-        map.columns = names(all.mismatch, all.period);
+        map.rows = names(strength, length);
+        map.columns = names(noise, period);
         map.fill([&](std::size_t r, std::size_t c) {
-          const auto& conditions = world_.conditions;
-          const SweepCondition here{scenario, all.mismatch[c / periods], all.period[c % periods],
-                                    all.strength[r / lengths], all.length[r % lengths]};
-          return cell(static_cast<std::size_t>(std::ranges::find(conditions, here) - conditions.begin()), choice);
+          const std::size_t lengths = all[length].size(), periods = all[period].size();
+          const SweepCondition here{scenario,
+                                    {all[noise][c / periods], all[period][c % periods], all[strength][r / lengths],
+                                     all[length][r % lengths]}};
+          const auto found = std::ranges::find(world_.conditions, here);
+          return cell(static_cast<std::size_t>(found - world_.conditions.begin()), choice);
         });
         view.panels.emplace_back(std::move(map));
       }
@@ -545,25 +461,25 @@ class Maps {
 
   HeatMap::Cell cell(std::size_t c, const Choice& choice) const {
     const std::size_t f = choice.in(world_, c);
-    const FilterSettings settings = world_.settings(c, f);
-    const Interval above = world_.against_imm(c, f), score = world_.tuned(c, f).score.interval();
+    const Tuned& tuned = world_.tuned(c, f);
+    const Interval above = world_.against_imm(c, f), score = tuned.score.interval();
     return {above.mean,
             fmt::format("± {} %, score {} ± {}; {}: leaving {}, returning {}, sigma_w {} and {}, lift {}{}",
                         number_text(100.0 * above.half_width, 1), number_text(score.mean, 3),
-                        number_text(score.half_width, 3), settings.name, settings.transition[0][1],
-                        settings.transition[1][0], settings.motions[0][MotionParameter::sigma_w],
-                        settings.motions[1][MotionParameter::sigma_w], name_of(settings.lift),
-                        world_.tuned(c, f).at_the_limit ? ", at the limit of the search" : ""),
+                        number_text(score.half_width, 3), world_.filters[f].name, tuned.numbers[0], tuned.numbers[1],
+                        tuned.numbers[2], tuned.numbers[3], world_.options.lifts[tuned.lift],
+                        world_.at_the_limit(c * world_.filters.size() + f) ? ", at the limit of the search" : ""),
             sure(above)};
   }
 
   const SweepWorld& world_;
-  std::vector<Choice> choices_;
+  std::vector<Choice> choices_ = filters_but_imm(world_);
   double most_ = 0.0;
 };
 
-void report(const SweepOptions& options, const SweepWorld& world) {
+void report(const SweepWorld& world) {
   constexpr std::size_t most_rows = 300;  // of a table in the page
+  const SweepOptions& options = world.options;
   ResultFiles files(options.output);
   Result result(options.output);
   const ResultTable filters = filters_table(world);
@@ -597,7 +513,7 @@ void report(const SweepOptions& options, const SweepWorld& world) {
     page.verdict.emplace_back("The best settings of every filter are in tuned.csv, and in each cell of the maps.");
   if (world.imm() && world.filters.size() > 1) {
     const Maps maps(world);
-    if (options.choice.cross) {
+    if (options.cross) {
       page.chooser = "Filter";
       page.views = maps.of_each_filter();
     } else {
@@ -617,37 +533,39 @@ Option add_list(Subcommand& app, const std::string& name, std::vector<Value>& va
 void add_sweep(CLI::App& program, const std::string& command) {
   Subcommand app(program, "sweep", "Every filter at its best settings, in many conditions.");
   const auto options = std::make_shared<SweepOptions>();
-  SweepChoice& choice = options->choice;
-  const auto add_factors = [&](const char* name, std::vector<double>& values, const char* meaning) {
-    add_list(app, name, values, meaning).number_in(0.05, 20.0);
+  const auto add_factors = [&](const char* name, Factor factor, const char* meaning) {
+    add_list(app, name, options->factors[factor], meaning).number_in(0.05, 20.0);
   };
-  add_list(app, "--scenario", choice.scenarios, "1: fire control radar, 2: surveillance radar").in({1, 2});
-  add_factors("--mismatch", choice.mismatch, "Noise of the radar, believed over true");
-  add_factors("--period", choice.period, "Sampling period, times the paper's");
-  add_factors("--strength", choice.strength, "Acceleration, times the paper's");
-  add_factors("--length", choice.length, "Length of the manoeuvre, times the paper's");
-  app.flag("--cross", choice.cross, "Every combination of these four, rather than each alone with the others 1");
-  add_list(app, "--filters", choice.filters, "Names as of the setting filters; the others are compared with imm");
-  add_list(app, "--probability", choice.probability, "Off-diagonals of P, the two rows apart").number_in(1e-12, 1.0);
-  add_list(app, "--possibility", choice.possibility, "Off-diagonals of the matrix of possibilities, the two rows apart")
-      .number_in(1e-12, 1.0);
-  add_list(app, "--sigma-w", choice.sigma_w, "sigma_w in m/s², the two models apart").number_in(1e-6, 1e6);
-  add_list(app, "--lift", choice.lifts, "What stands for a component that a model lacks")
+  const auto add_range = [&](const char* name, Numbers& range, double least, double most, const char* meaning) {
+    add_list(app, name, range, meaning).number_in(least, most);
+  };
+  add_list(app, "--scenario", options->scenarios, "1: fire control radar, 2: surveillance radar").in({1, 2});
+  add_factors("--mismatch", noise, "Noise of the radar, believed over true");
+  add_factors("--period", period, "Sampling period, times the paper's");
+  add_factors("--strength", strength, "Acceleration, times the paper's");
+  add_factors("--length", length, "Length of the manoeuvre, times the paper's");
+  app.flag("--cross", options->cross, "Every combination of these four, rather than each alone with the others 1");
+  add_list(app, "--filters", options->filters, "Names as of the setting filters; the others are compared with imm");
+  add_range("--probability", options->probability, 1e-12, 0.9,
+            "Off-diagonals of P, the two rows apart: one, or the least and the greatest");
+  add_range("--possibility", options->possibility, 1e-12, 1.0, "The same of the matrix of possibilities");
+  add_range("--sigma-w", options->sigma_w, 1e-6, 1e6, "The same of sigma_w in m/s², the two models apart");
+  add_list(app, "--lift", options->lifts, "What stands for a component that a model lacks")
       .one_of({"zero", "borrowed_variance", "unbiased"});
-  app.option("--beyond", choice.beyond,
-             "Steps that the search may go beyond an end of a list of numbers, each by the ratio of the last two; 0: "
-             "only what is listed")
-      .in(0, 100);
-  app.option("--tuning-runs", choice.tuning_runs, "Runs by which the best settings are chosen").in(1, 1000000);
-  app.option("--runs", choice.runs, "Other runs by which they are judged").in(2, 1000000);
-  add_seed(app, choice.seed);
+  app.option("--tuning-runs", options->tuning_runs, "Runs by which the best settings are chosen").in(1, 1000000);
+  app.option("--runs", options->runs, "Other runs by which they are judged").in(2, 1000000);
+  add_seed(app, options->seed);
   add_threads(app, options->sharing.threads);
   add_shard(app, options->sharing);
   add_results(app, options->output, command);
   app.run([options] {
-    SweepWorld world(options->choice);
+    for (Numbers* const range : {&options->probability, &options->possibility, &options->sigma_w}) {
+      const auto [least, greatest] = std::ranges::minmax(*range);
+      *range = least < greatest ? Numbers{least, greatest} : Numbers{least};
+    }
+    SweepWorld world(*options);
     const auto add = [&](std::size_t, const Study::Row& row) { world.add(row); };
-    if (run(world.study(), options->sharing, options->output, add)) report(*options, world);
+    if (run(world.study(), options->sharing, options->output, add)) report(world);
   });
 }
 

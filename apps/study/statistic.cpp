@@ -1,11 +1,8 @@
 #include "study/statistic.hpp"
 
 #include <numeric>
-#include <stdexcept>
 
 #include <boost/math/distributions/students_t.hpp>
-
-#include <fmt/core.h>
 
 namespace sigmax::apps {
 
@@ -29,10 +26,17 @@ Interval Statistic::interval(std::size_t together) const {
   return {value_, student * std::sqrt(squares / (n - 1.0) / n)};
 }
 
-void Batches::add(std::span<const double> row) {
-  if (row.size() != columns_.size())
-    throw std::runtime_error(fmt::format("a cell of {} numbers, expected {}", row.size(), columns_.size()));
-  for (std::size_t c = 0; c < row.size(); ++c) columns_[c].push_back(row[c]);
+std::vector<double> Statistic::numbers() const {
+  std::vector<double> all = change_;
+  all.push_back(value_);
+  return all;
+}
+
+Statistic Statistic::of(std::span<const double> numbers) {
+  Statistic result;
+  result.value_ = numbers.back();
+  result.change_.assign(numbers.begin(), numbers.end() - 1);
+  return result;
 }
 
 }  // namespace sigmax::apps

@@ -23,6 +23,12 @@ class Statistic {
 
   double value() const { return value_; }
 
+  /// @{
+  /// All that it knows, as numbers in a row, and out of them again.
+  std::vector<double> numbers() const;
+  static Statistic of(std::span<const double> numbers);
+  /// @}
+
   /// value ± t s/√B over B batches, by Student's t with B − 1 degrees of freedom and Bonferroni's share of the 5 % for
   /// one of so many intervals that hold together. Without a second batch the half width is infinite.
   Interval interval(std::size_t together = 1) const;
@@ -57,23 +63,6 @@ class Statistic {
 
   double value_ = std::numeric_limits<double>::quiet_NaN();
   std::vector<double> change_;  // by batch; their mean is 0
-};
-
-/// Sums of figures over batches of runs: rows that begin with how many runs they are of.
-class Batches {
- public:
-  explicit Batches(std::size_t columns) : columns_(columns) {}
-
-  /// Adds a batch; throws std::runtime_error for another number of columns.
-  void add(std::span<const double> row);
-
-  /// The mean of a column over the runs, or over what another column counts.
-  Statistic mean(std::size_t column, std::size_t counts = 0) const {
-    return Statistic::mean(columns_[column], columns_[counts]);
-  }
-
- private:
-  std::vector<std::vector<double>> columns_;  // by batch
 };
 
 }  // namespace sigmax::apps

@@ -179,7 +179,7 @@ TEST_F(ReportPage, OfSweepIsAMapOfConditionsAndFilters) {
   const auto sweep = [&](const std::string& out, const Arguments& more) {
     const auto small = words(
         "sweep --quiet --scenario 2 --filters imm,himm_own --probability 0.05 --possibility 0.2,0.5 --sigma-w 3 "
-        "--lift zero --mismatch 1,2 --period 2 --strength 1 --length 0.5,1 --tuning-runs 1 --runs 2 --beyond 0 --out");
+        "--lift zero --mismatch 1,2 --period 2 --strength 1 --length 0.5,1 --tuning-runs 1 --runs 2 --out");
     program::succeeds(SIGMAX_HIMM_DEMO, small + Arguments{directory.path() / out} + more);
     return directory.path() / out;
   };

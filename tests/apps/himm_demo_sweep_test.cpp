@@ -4,7 +4,7 @@
 
 namespace himm_demo_sweep_test {
 
-/// Nine conditions, two filters, four settings each.
+/// Nine conditions, two filters, of which the noises are searched.
 const Arguments small = words(
     "sweep --scenario 2 --filters imm,himm_own --probability 0.05 --possibility 0.5 --sigma-w 3,9 --lift zero "
     "--tuning-runs 4 --runs 40 --mismatch 1,2");
@@ -34,63 +34,50 @@ double score_of(const nlohmann::json& results, const std::string& filter) {
   return sum / 9.0;
 }
 
-class HimmDemoSweep : public InDirectory {};
+class HimmDemoSweep : public InDirectory {
+ protected:
+  void SetUp() override {
+    const auto least =
+        words("sweep --quiet --scenario 2 --filters imm --runs 2 --tuning-runs 1 --sigma-w 3 --lift zero");
+    if (program::run(SIGMAX_HIMM_DEMO, least + words(alone)).output.find("without an optimiser") != std::string::npos)
+      GTEST_SKIP() << "built without NLopt";
+  }
+};
 
-TEST_F(HimmDemoSweep, TheSettingsWithTheLeastScoreOfSimulateAreChosen) {
+TEST_F(HimmDemoSweep, TheScoreIsThatOfSimulateAndNoCornerHasABetterOne) {
   campaign(directory.path() / "sweep",
            words("sweep --scenario 2 --filters imm,himm_own --tuning-runs 10 --runs 4 --probability 0.05 "
-                 "--possibility 0.2,0.5 --sigma-w 1,9 --lift zero,unbiased --beyond 0" +
+                 "--possibility 0.2,0.5 --sigma-w 1,9 --lift zero,unbiased" +
                  alone));
-  double least = 1e9;
-  TextRow best;
+  const auto row = tuned(directory.path() / "sweep", "himm_own");
+  const auto score = [&](const std::string& leaving, const std::string& returning, const std::string& dwna,
+                         const std::string& dwpa, const std::string& lift) {
+    const auto results =
+        simulated(directory.path() / "simulate",
+                  {"filters=himm_own", "transition_possibility=[[1," + leaving + "],[" + returning + ",1]]",
+                   "sigma_w=[" + dwna + "," + dwpa + "]", "lift=" + lift});
+    return score_of(results, "himm_own");
+  };
+  const double best = std::stod(row.at("tuning_score"));
+  EXPECT_NEAR(
+      score(row.at("leaving"), row.at("returning"), row.at("sigma_w_dwna"), row.at("sigma_w_dwpa"), row.at("lift")),
+      best, 1e-9);
   for (const std::string leaving : {"0.2", "0.5"})
     for (const std::string returning : {"0.2", "0.5"})
       for (const std::string dwna : {"1", "9"})
         for (const std::string dwpa : {"1", "9"})
-          for (const std::string lift : {"zero", "unbiased"}) {
-            const auto results =
-                simulated(directory.path() / "simulate",
-                          {"filters=himm_own", "transition_possibility=[[1," + leaving + "],[" + returning + ",1]]",
-                           "sigma_w=[" + dwna + "," + dwpa + "]", "lift=" + lift});
-            if (score_of(results, "himm_own") < least) {
-              least = score_of(results, "himm_own");
-              best = {{"leaving", leaving},
-                      {"returning", returning},
-                      {"sigma_w_dwna", dwna},
-                      {"sigma_w_dwpa", dwpa},
-                      {"lift", lift}};
-            }
-          }
-  const auto row = tuned(directory.path() / "sweep", "himm_own");
-  for (const auto& [key, value] : best) EXPECT_EQ(row.at(key), value) << key;
-  EXPECT_NEAR(std::stod(row.at("tuning_score")), least, 1e-9);
+          for (const std::string lift : {"zero", "unbiased"})
+            EXPECT_GE(score(leaving, returning, dwna, dwpa, lift), best - 1e-4) << leaving << returning << dwna << dwpa;
 }
 
-/// Two filters, of which only the off-diagonals are searched.
-const Arguments off_diagonals = words(
-    "sweep --scenario 1 --tuning-runs 4 --runs 2 --sigma-w 3 --lift zero --filters imm,himm_own_recentred" + alone);
-
-TEST_F(HimmDemoSweep, BeyondItsListsItFindsTheBestOfLongerOnes) {
-  const auto far = directory.path() / "far", longer = directory.path() / "longer";
-  const auto said = campaign(far, off_diagonals + words("--probability 0.16,0.32 --possibility 0.4,0.8"));
-  EXPECT_EQ(said.find("tuned filters stopped"), std::string::npos) << said;
-  campaign(longer, off_diagonals + words("--beyond 0 --probability 0.0025,0.005,0.01,0.02,0.04,0.08,0.16,0.32,0.64,0.9 "
-                                         "--possibility 0.00625,0.0125,0.025,0.05,0.1,0.2,0.4,0.8,1"));
-  for (const std::string filter : {"imm", "himm_own_recentred"}) {
-    auto found = tuned(far, filter), best = tuned(longer, filter);
-    EXPECT_LT(std::stod(found.at("settings_tried")), std::stod(best.at("settings_tried")));
-    found["settings_tried"] = best["settings_tried"];
-    EXPECT_EQ(found, best);
-  }
-}
-
-TEST_F(HimmDemoSweep, ItStopsAtTheLimitAndSaysSo) {
+TEST_F(HimmDemoSweep, ItStopsAtTheEndOfARangeAndSaysSo) {
   const auto said =
-      campaign(directory.path(), off_diagonals + words("--probability 0.16,0.32 --possibility 0.4,0.8 --beyond 2"));
-  EXPECT_TRUE(says(said, {"2 of 2 tuned filters stopped at the limit beyond a list"}));
+      campaign(directory.path(), words("sweep --scenario 1 --tuning-runs 4 --runs 2 --sigma-w 3 --lift zero --filters "
+                                       "imm,himm_own_recentred --probability 0.16,0.32 --possibility 0.4,0.8" +
+                                       alone));
+  EXPECT_TRUE(says(said, {"2 of 2 tuned filters have a number at an end of its range"}));
   const auto row = tuned(directory.path(), "imm");
-  EXPECT_EQ(row.at("leaving"), "0.04");
-  EXPECT_EQ(row.at("returning"), "0.04");
+  EXPECT_NEAR(std::stod(row.at("leaving")), 0.16, 1e-3);
   EXPECT_EQ(row.at("at_the_limit"), "1");
 }
 
@@ -185,7 +172,7 @@ TEST_F(HimmDemoSweep, WhatCannotBeIsSaid) {
   EXPECT_TRUE(says(other.output, {"the directory holds another campaign: found '--seed 1', expected '--seed 2'"}));
 
   EXPECT_EQ(run(small + Arguments{"--shard", "1/2"}).status, 2) << "there is no --out";
-  EXPECT_EQ(run(small + Arguments{"--beyond", "1", "--out", out}).status, 3) << "another campaign";
+  EXPECT_EQ(run(small + Arguments{"--cross", "--out", out}).status, 3) << "another campaign";
   EXPECT_EQ(run({"sweep", "--filters", "nobody"}).status, 3);
   EXPECT_EQ(run(small + Arguments{"--merge", directory.path(), "--out", out}).status, 3);
 }

@@ -2,7 +2,7 @@
 
 #include <sstream>
 
-#include "himm_demo/experiment/scenario.hpp"
+#include "report/report.hpp"
 
 namespace sigmax::apps {
 namespace {
@@ -49,12 +49,93 @@ bool in_the_paper(const FilterSettings& filter) {
 /// Whether both ends are closed.
 bool bounded(const Region& region) { return std::isfinite(region.above) && std::isfinite(region.below); }
 
-}  // namespace
-
 Finding finding_of(const Interval& interval, const Region& region) {
   if (interval.lower() > region.above && interval.upper() < region.below) return Finding::inside;
   if (interval.upper() < region.above || interval.lower() > region.below) return Finding::outside;
   return Finding::open;
+}
+
+/// The figure of one filter that is not by axis.
+Statistic figure_of(FigureOf figure, const Tally& tally, std::size_t of, std::size_t phase) {
+  const auto mean = [&](std::size_t place) { return tally.mean(of, place); };
+  if (figure == FigureOf::onset_rmse) return sqrt(mean(Tally::onset_z + 1) / mean(Tally::onset_z)) - 1.0;
+  if (figure == FigureOf::cross_time) return tally.cross_time(of);
+  if (figure == FigureOf::cross_time_curves) return tally.cross_time_of_batches(of);
+  if (figure == FigureOf::lead) return mean(Tally::lead + phase);
+  if (figure == FigureOf::switches) return mean(Tally::switches + phase);
+  return mean(Tally::switches) + mean(Tally::switches + 1) + mean(Tally::switches + 2);
+}
+
+/// All figures of a sentence under a preset.
+Judged measured(const Sentence& sentence, const std::vector<Condition>& conditions, Preset preset,
+                std::string_view reading) {
+  Judged judged;
+  std::array<std::vector<Statistic>, 2> values;  // their intervals depend on how many there are
+  for (const auto& statement : sentence.statements) {
+    const auto found = std::ranges::find_if(conditions, [&](const Condition& one) {
+      return one.preset == preset && one.scenario == statement.scenario && one.group == statement.group;
+    });
+    if (found == conditions.end()) throw std::logic_error("a sentence speaks of what was not run");
+    const Tally& tally = found->tally;
+    const auto add = [&](std::optional<std::size_t> phase, std::optional<std::size_t> axis) {
+      judged.figures.push_back({&statement, phase, axis});
+      for (const bool released_imm : {false, true}) {
+        const auto figure = [&](Actor actor) {
+          const std::size_t of = tally.place(filter_of(actor, reading, released_imm)).value();
+          return axis ? tally.rmse(of, *phase, *axis) : figure_of(statement.figure, tally, of, phase.value_or(0));
+        };
+        Statistic value = figure(statement.of);
+        if (axis)
+          value = value / figure(statement.against) - 1.0;
+        else if (statement.against != Actor::nobody)
+          value = value - figure(statement.against);
+        values[released_imm ? 1 : 0].push_back(std::move(value));
+      }
+    };
+    const bool by_phase = statement.figure == FigureOf::lead || statement.figure == FigureOf::switches;
+    if (!by_phase && statement.figure != FigureOf::rmse) add({}, {});
+    for (const std::size_t phase : statement.phases) {
+      if (by_phase) add(phase, {});
+      for (std::size_t axis = 0; axis < 3 && statement.figure == FigureOf::rmse; ++axis) add(phase, axis);
+    }
+  }
+  for (const std::size_t imm : {0U, 1U})
+    for (std::size_t i = 0; i < judged.figures.size(); ++i) {
+      Measured& one = judged.figures[i];
+      one.interval[imm] = values[imm][i].interval(values[imm].size());
+      one.finding[imm] = finding_of(one.interval[imm], one.statement->region);
+    }
+  return judged;
+}
+
+}  // namespace
+
+std::string filter_of(Actor actor, std::string_view reading, bool released_imm) {
+  const std::string himm = "himm_" + std::string(reading), imm = released_imm ? "imm_released" : "imm";
+  const std::array<std::string, 6> names = {himm, himm + "_5", imm, imm + "_most_likely", measurement_name, ""};
+  return names[static_cast<std::size_t>(actor)];
+}
+
+Verdict Judged::verdict() const {
+  const auto all_inside = [&](std::size_t imm) {
+    return std::ranges::all_of(figures, [=](const Measured& one) { return one.finding[imm] == Finding::inside; });
+  };
+  if (all_inside(0)) return Verdict::holds;
+  if (all_inside(1)) return Verdict::only_against_released;
+  const auto is_outside = [](const Measured& one) { return one.finding[0] == Finding::outside; };
+  return std::ranges::any_of(figures, is_outside) ? Verdict::does_not_hold : Verdict::undecided;
+}
+
+const Measured& Judged::least_favourable() const {
+  return *std::ranges::min_element(figures, {}, [](const Measured& one) {
+    const auto& [above, below] = one.statement->region;
+    const double inside = std::min(one.interval[0].mean - above, below - one.interval[0].mean);
+    return std::isnan(inside) ? 0.0 : inside / std::max(one.interval[0].half_width, 1e-12);
+  });
+}
+
+std::vector<Judged> judge(const std::vector<Condition>& conditions, Preset preset, std::string_view reading) {
+  return each(sentences(), [&](const Sentence& one) { return measured(one, conditions, preset, reading); });
 }
 
 const std::vector<Sentence>& sentences() {

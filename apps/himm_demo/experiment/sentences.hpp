@@ -1,8 +1,6 @@
 #pragma once
 
-#include <sigmax/core/mean_interval.hpp>
-
-#include "himm_demo/filters/settings.hpp"
+#include "himm_demo/experiment/tally.hpp"
 
 namespace sigmax::apps {
 
@@ -35,8 +33,6 @@ struct Region {
 /// What runs say of a region in which a figure should lie: its whole interval does, or none of it does, or neither.
 enum class Finding { inside, outside, open };
 
-Finding finding_of(const Interval& interval, const Region& region);
-
 /// A part of a sentence that can be measured.
 struct Statement {
   FigureOf figure;
@@ -52,6 +48,49 @@ struct Sentence {
   std::string words{};
   std::vector<Statement> statements{};
 };
+
+/// The readings of (57) by which there is a filter himm_…; `envelope` is without.
+constexpr std::array<const char*, 5> himm_readings = {"selected", "own", "own_recentred", "released", "envelope"};
+
+/// The reading that a preset takes for the paper's.
+constexpr std::string_view reading_of(Preset preset) { return preset == Preset::released ? "released" : "own"; }
+
+/// The name of the filter that a sentence is about, or nothing of nobody: by a reading of (57), for HIMM, and with the
+/// authors' program's IMM or the correct one.
+std::string filter_of(Actor actor, std::string_view reading, bool released_imm);
+
+/// One scenario and group under one preset, with all that was found there.
+struct Condition {
+  Preset preset;
+  int scenario, group;
+  Tally tally;
+};
+
+/// One figure of a sentence, measured against the correct IMM and against the released one. The intervals of all
+/// figures of one sentence hold together with 95 %.
+struct Measured {
+  const Statement* statement;
+  std::optional<std::size_t> phase, axis;
+  std::array<Interval, 2> interval{};
+  std::array<Finding, 2> finding{};
+};
+
+enum class Verdict { holds, only_against_released, does_not_hold, undecided };
+
+/// The figures of one sentence under one preset and reading.
+struct Judged {
+  std::vector<Measured> figures;
+
+  /// A sentence holds if all its figures are inside their regions, and does not if one is outside. The correct IMM
+  /// decides, unless it holds only against the released one.
+  Verdict verdict() const;
+
+  /// The figure that speaks most against the sentence, in half widths of its interval.
+  const Measured& least_favourable() const;
+};
+
+/// All sentences, in their order.
+std::vector<Judged> judge(const std::vector<Condition>& conditions, Preset preset, std::string_view reading);
 
 /// Differences of less than a tenth of the reference are called competitive here.
 inline constexpr double competitive_fraction = 0.1;

@@ -1,0 +1,283 @@
+#include "himm_demo/experiment/tally.hpp"
+
+#include <numeric>
+
+#include <sigmax/estimation/metrics.hpp>
+
+#include "report/report.hpp"
+
+namespace sigmax::apps {
+namespace {
+
+/// The last model that manoeuvres, if another does not. Its crossing is a delay.
+std::optional<std::size_t> manoeuvre_model(const FilterSettings& filter) {
+  if (filter.smooth || std::ranges::all_of(filter.motions, &MotionChoice::manoeuvres)) return std::nullopt;
+  for (std::size_t j = filter.motions.size(); j-- > 0;)
+    if (filter.motions[j].manoeuvres()) return j;
+  return std::nullopt;
+}
+
+/// The weight of a model minus the greatest of the others; 0 without weights.
+double weight_difference(const std::vector<double>& weights, std::size_t model) {
+  if (weights.empty()) return 0.0;
+  double other = 0.0;
+  for (std::size_t j = 0; j < weights.size(); ++j)
+    if (j != model) other = std::max(other, weights[j]);
+  return weights[model] - other;
+}
+
+/// The mean of value(sample) over the samples of a phase.
+template <class Value>
+double phase_mean(const Phase& phase, const Value& value) {
+  double sum = 0.0;
+  for (int k = phase.first; k <= phase.last; ++k) sum += value(static_cast<std::size_t>(k - 1));
+  return sum / (phase.last - phase.first + 1);
+}
+
+/// When a lead(sample) becomes positive after the onset, in fractional samples counted from one.
+template <class Lead>
+std::optional<double> crossing_of(const Experiment& experiment, const Lead& lead) {
+  for (int k = std::max(experiment.scenario.onset(), 2); k <= experiment.scenario.samples(); ++k) {
+    const double previous = lead(static_cast<std::size_t>(k - 2)), now = lead(static_cast<std::size_t>(k - 1));
+    if (previous <= 0.0 && now > 0.0) return k - 1 + previous / (previous - now) + experiment.mode_sample_shift;
+  }
+  return std::nullopt;
+}
+
+void record(const TargetPoint& point, const Vector<6>& truth, Trace& trace) {
+  const auto n = static_cast<Eigen::Index>(point.mean.size());
+  const Eigen::Map<const Eigen::VectorXd> mean(point.mean.data(), n);
+  const Eigen::Map<const Eigen::MatrixXd> covariance(point.covariance.data(), n, n);
+  trace.error[point.tag] = mean.head<3>() - truth.head<3>();
+  trace.covariance[point.tag] = covariance.topLeftCorner<3, 3>();
+  trace.nees_position[point.tag] = normalized_error_squared<3, 3>(trace.error[point.tag], trace.covariance[point.tag]);
+  if (n >= 6)
+    trace.nees_velocity[point.tag] =
+        normalized_error_squared<6, 6>(mean.head<6>() - truth, covariance.topLeftCorner<6, 6>());
+  trace.nis[point.tag] = point.nis.value_or(nan);
+  trace.weights[point.tag] = point.weights;
+}
+
+/// What one trace adds to the sums of a sample; where the gate turned the measurement away there is no NIS.
+void add_sample(const Trace& trace, std::size_t k, double* sums) {
+  for (std::size_t axis = 0; axis < 3; ++axis) sums[axis] = std::pow(trace.error[k](static_cast<int>(axis)), 2);
+  sums[Tally::nees_position] = trace.nees_position[k];
+  sums[Tally::nees_velocity] = trace.nees_velocity[k];
+  sums[Tally::nis_count] = std::isnan(trace.nis[k]) ? 0.0 : 1.0;
+  sums[Tally::nis] = std::isnan(trace.nis[k]) ? 0.0 : trace.nis[k];
+  sums[Tally::weight_count] = trace.weights[k].empty() ? 0.0 : 1.0;
+  std::ranges::copy(trace.weights[k], sums + Tally::weight);
+}
+
+}  // namespace
+
+std::vector<AnyPlot> plots_of(const FilterSettings& filter, double step_s, std::span<const Polar> seen) {
+  std::vector<AnyPlot> plots;
+  for (const auto& [range, azimuth, elevation] : seen) {
+    const std::array z = {range, azimuth, elevation}, unknown = {nan, nan, nan};
+    AnyPlot plot = AnyPlot::polar(step_s * static_cast<double>(plots.size()), z, unknown);
+    plot.tag = plots.size();
+    plots.push_back(believed(filter, "", plot, 3));
+  }
+  return plots;
+}
+
+Recording Experiment::recording(std::uint64_t number) const {
+  RandomStream random(seed, number);
+  return simulate(scenario, group.data, random);
+}
+
+TracedRun Experiment::traced(std::uint64_t number) const {
+  const auto [truth, measured] = recording(number);
+  TracedRun run{truth, std::vector(1 + filters.size(), Trace{truth.size()})};
+  for (std::size_t k = 0; k < truth.size(); ++k)
+    run.traces[0].error[k] = to_cartesian(measured[k]) - truth[k].head<3>();
+  for (std::size_t f = 0; f < filters.size(); ++f) {
+    const FilterSettings& filter = filters[f];
+    const auto visit = [&, &truth = run.truth](const TargetPoint& point) {
+      record(point, truth[point.tag], run.traces[f + 1]);
+    };
+    const auto plots = plots_of(filter, scenario.step_s, measured);
+    AnyTarget target(choice_of(filter, 3));
+    for (std::size_t k = 0; k < plots.size(); ++k) try {
+        target.follow({&plots[k], 1}, [&](const TargetPoint& point) {
+          if (!filter.smooth) visit(point);
+        });
+        if (filter.smooth && k + 1 == plots.size()) target.smoothed(visit);
+      } catch (const std::exception& error) {
+        throw std::runtime_error(
+            fmt::format("run {}, filter '{}', sample {}: {}", number + 1, filter.name, k + 1, error.what()));
+      }
+  }
+  return run;
+}
+
+Experiment experiment_of(Preset preset, int scenario_number, int group_number, const Settings& settings, int runs,
+                         std::uint64_t seed) {
+  const Group parameters = group(group_number, scenario_number);
+  auto filters = read_filters(settings, FilterDefaults::of(preset, parameters));
+  settings.refuse_unknown();
+  const int mode_sample_shift = preset == Preset::released ? -1 : 0;
+  return {scenario(scenario_number, preset), parameters, std::move(filters), runs, seed, mode_sample_shift};
+}
+
+Tally::Tally(Experiment what, bool by_sample)
+    : experiment(std::move(what)), manoeuvre_(1), columns_(1 + figures * size()) {
+  for (const FilterSettings& one : experiment.filters) {
+    manoeuvre_.push_back(manoeuvre_model(one));
+    width_ = std::max(width_, weight + one.models.size());
+  }
+  if (!by_sample) width_ = 0;
+  sums_.resize(at(size(), 0));
+  spread_.resize(by_sample ? 3 * size() * experiment.samples() : 0);
+}
+
+void Tally::add_figures(const Trace& trace, std::size_t of, double* sums) const {
+  const auto& phases = experiment.scenario.phases;
+  for (std::size_t i = 0; i < 9; ++i) {
+    const auto axis = static_cast<Eigen::Index>(i % 3);
+    sums[square + i] +=
+        phase_mean(phases[i / 3], [&](std::size_t k) { return trace.error[k](axis) * trace.error[k](axis); });
+  }
+  const int onset = experiment.scenario.onset(), last = experiment.scenario.samples();
+  const auto squared_z = [&](std::size_t k) { return trace.error[k].z() * trace.error[k].z(); };
+  sums[onset_z] += phase_mean({onset - 10, onset - 1}, squared_z);
+  sums[onset_z + 1] += phase_mean({onset, std::min(onset + 9, last)}, squared_z);
+  if (!manoeuvre_[of]) return;
+  const auto leads = [&](std::size_t k) { return weight_difference(trace.weights[k], *manoeuvre_[of]); };
+  for (std::size_t p = 0; p < phases.size(); ++p) {
+    sums[lead + p] += phase_mean(phases[p], [&](std::size_t k) { return leads(k) > 0.0 ? 1.0 : 0.0; });
+    for (auto k = static_cast<std::size_t>(phases[p].first - 1); k < static_cast<std::size_t>(phases[p].last); ++k)
+      sums[switches + p] += (leads(k) > 0.0) != (leads(k - 1) > 0.0) ? 1.0 : 0.0;
+  }
+  if (const auto crosses = crossing_of(experiment, leads)) {
+    sums[crossing] += *crosses;
+    sums[crossed] += 1.0;
+  }
+  for (int k = onset - 2; k < std::min(onset + 14, last); ++k)
+    sums[curve + static_cast<std::size_t>(k - onset + 2)] += leads(static_cast<std::size_t>(k));
+}
+
+Study::Row Tally::row(std::uint64_t first, std::uint64_t last) const {
+  Study::Row row(columns_.size() + sums_.size(), 0.0);
+  row[0] = static_cast<double>(last - first);
+  for (std::uint64_t number = first; number < last; ++number) {
+    const TracedRun run = experiment.traced(number);
+    for (std::size_t of = 0; of < size(); ++of) {
+      add_figures(run.traces[of], of, &row[1 + figures * of]);
+      for (std::size_t k = 0; k < experiment.samples() && width_ > 0; ++k)
+        add_sample(run.traces[of], k, &row[columns_.size() + at(of, k)]);
+    }
+  }
+  return row;
+}
+
+void Tally::add(std::span<const double> row) {
+  const std::size_t columns = columns_.size(), numbers = columns + sums_.size();
+  if (row.size() != numbers)
+    throw std::runtime_error(fmt::format("a cell of {} numbers, expected {}", row.size(), numbers));
+  for (std::size_t c = 0; c < columns; ++c) columns_[c].push_back(row[c]);
+  row = row.subspan(columns);
+  for (std::size_t i = 0; i < sums_.size(); ++i) sums_[i] += row[i];
+  for (std::size_t i = 0; i < spread_.size(); ++i) spread_[i].add(row[i / 3 * width_ + i % 3]);
+}
+
+std::string Tally::name(std::size_t of) const { return of == 0 ? measurement_name : experiment.filters[of - 1].name; }
+
+std::optional<std::size_t> Tally::place(std::string_view name) const {
+  for (std::size_t of = 0; of < size(); ++of)
+    if (this->name(of) == name) return of;
+  return std::nullopt;
+}
+
+double Tally::runs() const { return std::accumulate(columns_[0].begin(), columns_[0].end(), 0.0); }
+
+Statistic Tally::mean(std::size_t of, std::size_t figure) const {
+  return Statistic::mean(columns_[1 + figures * of + figure], columns_[0]);
+}
+
+Statistic Tally::rmse(std::size_t of, std::size_t phase, std::size_t axis) const {
+  return sqrt(mean(of, square + 3 * phase + axis));
+}
+
+Statistic Tally::over_measurement(std::size_t of) const {
+  const auto ratio = [&](std::size_t i) { return rmse(of, i / 3, i % 3) / rmse(0, i / 3, i % 3); };
+  Statistic sum = ratio(0);
+  for (std::size_t i = 1; i < 9; ++i) sum = sum + ratio(i);
+  return sum * (1.0 / 9.0);
+}
+
+Statistic Tally::cross_time(std::size_t of) const {
+  return Statistic::mean(columns_[1 + figures * of + crossing], columns_[1 + figures * of + crossed]);
+}
+
+std::vector<double> Tally::cross_times(std::size_t of) const {
+  std::vector<double> times = columns_[1 + figures * of + crossing];
+  std::erase(times, 0.0);
+  return times;
+}
+
+Statistic Tally::cross_time_of_batches(std::size_t of) const {
+  for (std::size_t i = 1; i < figures - curve; ++i) {
+    const Statistic before = mean(of, curve + i - 1), now = mean(of, curve + i);
+    if (before.value() <= 0.0 && now.value() > 0.0)
+      return before / (before - now) +
+             (experiment.scenario.onset() - 2.0 + static_cast<double>(i) + experiment.mode_sample_shift);
+  }
+  return {};
+}
+
+double Tally::rmse_at(std::size_t of, std::size_t sample, std::size_t axis) const {
+  return std::sqrt(sum(of, sample, squared + axis) / runs());
+}
+
+double Tally::half_width_at(std::size_t of, std::size_t sample, std::size_t axis) const {
+  const RunningMean& spread = spread_[3 * (of * experiment.samples() + sample) + axis];
+  return spread.interval().half_width / (2.0 * rmse_at(of, sample, axis));  // delta method
+}
+
+double Tally::mean_at(std::size_t of, std::size_t sample, BySample figure) const {
+  const double count = figure == nis ? sum(of, sample, nis_count) : runs();
+  return count > 0.0 ? sum(of, sample, figure) / count : nan;
+}
+
+std::vector<double> Tally::weights(std::size_t of, std::size_t sample) const {
+  std::vector<double> all;
+  for (std::size_t j = 0; j < filter(of)->models.size() && sum(of, sample, weight_count) > 0.0; ++j)
+    all.push_back(sum(of, sample, weight + j) / runs());
+  return all;
+}
+
+std::vector<double> Tally::weights_at(std::size_t of, std::size_t sample) const {
+  const auto source = static_cast<std::size_t>(static_cast<int>(sample) - experiment.mode_sample_shift);
+  return source < experiment.samples() ? weights(of, source) : std::vector<double>();
+}
+
+std::optional<double> Tally::cross_time_of_curves(std::size_t of) const {
+  if (!manoeuvre_[of]) return std::nullopt;
+  return crossing_of(experiment, [&](std::size_t k) { return weight_difference(weights(of, k), *manoeuvre_[of]); });
+}
+
+double Tally::peak_rmse(std::size_t of, std::size_t axis) const {
+  double peak = 0.0;
+  for (auto k = static_cast<std::size_t>(experiment.scenario.phases[0].first - 1); k < experiment.samples(); ++k)
+    peak = std::max(peak, rmse_at(of, k, axis));
+  return peak;
+}
+
+double Tally::mean_of(std::size_t of, BySample figure, std::optional<std::size_t> phase) const {
+  double sums = 0.0, samples = 0.0;
+  for (const Phase& each : experiment.scenario.phases) {
+    const auto total = [&](std::size_t what) {
+      return phase_mean(each, [&](std::size_t k) { return sum(of, k, what); });
+    };
+    const double mean = total(figure) / (figure == nis ? total(nis_count) : runs());
+    if (phase && &each == &experiment.scenario.phases[*phase]) return mean;
+    const double length = each.last - each.first + 1;
+    sums += length * mean;
+    samples += length;
+  }
+  return sums / samples;
+}
+
+}  // namespace sigmax::apps

@@ -1,0 +1,147 @@
+#pragma once
+
+#include <sigmax/estimation/gaussian.hpp>
+
+#include "himm_demo/experiment/scenario.hpp"
+#include "himm_demo/filters/settings.hpp"
+#include "study/statistic.hpp"
+#include "study/study.hpp"
+
+namespace sigmax::apps {
+
+struct View;
+
+/// One filter in one run, sample by sample; NaN where there is no estimate. The measurement has errors alone.
+struct Trace {
+  std::size_t samples;
+  std::vector<Vector<3>> error = std::vector<Vector<3>>(samples, Vector<3>::Constant(nan));  ///< of the position
+  /// Of the position, as the filter states it.
+  std::vector<SquareMatrix<3>> covariance = std::vector<SquareMatrix<3>>(samples, SquareMatrix<3>::Constant(nan));
+  std::vector<double> nees_position = std::vector(samples, nan), nees_velocity = nees_position, nis = nees_position;
+  std::vector<std::vector<double>> weights = std::vector<std::vector<double>>(samples);
+};
+
+/// A run of the experiment: the target, and the traces of the measurement and of each filter.
+struct TracedRun {
+  std::vector<Vector<6>> truth;
+  std::vector<Trace> traces;
+};
+
+/// The experiment of section VI.
+struct Experiment {
+  Scenario scenario;
+  Group group;
+  std::vector<FilterSettings> filters;
+  int runs;
+  std::uint64_t seed;
+  int mode_sample_shift;  ///< added to the sample of mode curves: −1 in the released program, else 0
+
+  std::size_t samples() const { return static_cast<std::size_t>(scenario.samples()); }
+
+  /// What the radar sees of the run with that number, counted from 0; the seed and the number decide what is drawn.
+  Recording recording(std::uint64_t number) const;
+
+  /// The same run through all filters. Throws std::runtime_error, naming run, filter and sample, where a filter throws.
+  TracedRun traced(std::uint64_t number) const;
+};
+
+/// That of a scenario and group, with the filters that the settings name. Throws InputError for what cannot be.
+Experiment experiment_of(Preset preset, int scenario_number, int group_number, const Settings& settings, int runs,
+                         std::uint64_t seed);
+
+/// What the experiment's radar saw, sample by sample, as the filter takes it; the tag is the sample, from 0.
+std::vector<AnyPlot> plots_of(const FilterSettings& filter, double step_s, std::span<const Polar> seen);
+
+/// What runs of an experiment add up to: figures by batch of runs, so that their statistics are paired, and sums by
+/// sample. All is told of the measurement, number 0, and of the filters from number 1 on; samples and phases are
+/// counted from 0.
+///
+///     Tally tally(experiment);
+///     for (std::uint64_t run = 0; run < 100; run += 10) tally.add(tally.row(run, run + 10));
+///     tally.rmse(1, 0, 2).interval();   // of the first filter before the manoeuvre, along z
+class Tally {
+ public:
+  /// The figures of a run, as they follow each other in a row. Those of the weights are 0 for a filter without a
+  /// manoeuvre model, and for a smoothed one, which knows of the manoeuvre before it begins.
+  enum Figure : std::size_t {
+    square = 0,               ///< by phase and axis: mean square error
+    onset_z = square + 9,     ///< of z in ten samples before and ten from the onset on
+    lead = onset_z + 2,       ///< by phase: share of samples with the manoeuvre's model
+    switches = lead + 3,      ///< by phase: how often the lead changes
+    crossing = switches + 3,  ///< when the model's weight first crosses the others' after the onset, in samples …
+    crossed,                  ///< … and in how many runs it does
+    curve,                    ///< the model's lead in weight, in 16 samples from two before the onset on
+    figures = curve + 16
+  };
+
+  /// Sums by sample.
+  enum BySample : std::size_t { squared = 0, nees_position = 3, nees_velocity, nis, nis_count, weight_count, weight };
+
+  /// With sums by sample a row is to be of one run.
+  explicit Tally(Experiment experiment, bool by_sample = false);
+
+  /// The runs first … last − 1; any thread may call it.
+  Study::Row row(std::uint64_t first, std::uint64_t last) const;
+
+  /// Throws std::runtime_error for a row of another tally.
+  void add(std::span<const double> row);
+
+  std::size_t size() const { return 1 + experiment.filters.size(); }
+  std::string name(std::size_t of) const;
+  /// Null of the measurement.
+  const FilterSettings* filter(std::size_t of) const { return of == 0 ? nullptr : &experiment.filters[of - 1]; }
+  /// Whether a crossing can be told of it.
+  bool has_manoeuvre(std::size_t of) const { return manoeuvre_[of].has_value(); }
+  /// Who has this name.
+  std::optional<std::size_t> place(std::string_view name) const;
+
+  /// The mean of a figure over the runs, and the RMSE of a phase and axis in m.
+  Statistic mean(std::size_t of, std::size_t figure) const;
+  Statistic rmse(std::size_t of, std::size_t phase, std::size_t axis) const;
+  /// The mean over axes and phases of RMSE over that of the measurement.
+  Statistic over_measurement(std::size_t of) const;
+
+  /// Cross-times: the mean of the runs that crossed, each of them where a row is of one run, and that of the averaged
+  /// curves by batch, NaN if it is not soon after the onset.
+  Statistic cross_time(std::size_t of) const;
+  std::vector<double> cross_times(std::size_t of) const;
+  Statistic cross_time_of_batches(std::size_t of) const;
+
+  /// @{
+  /// By sample: RMSE along an axis, with its half width at 95 % confidence; the mean NEES or NIS; the models' weights
+  /// as they are told of it, empty before the first estimate; where the averaged weights cross.
+  double rmse_at(std::size_t of, std::size_t sample, std::size_t axis) const;
+  double half_width_at(std::size_t of, std::size_t sample, std::size_t axis) const;
+  double mean_at(std::size_t of, std::size_t sample, BySample figure) const;
+  std::vector<double> weights_at(std::size_t of, std::size_t sample) const;
+  std::optional<double> cross_time_of_curves(std::size_t of) const;
+  /// @}
+  /// The greatest RMSE along an axis, and the mean NEES or NIS of a phase or of all: 3 if consistent, 6 with the
+  /// velocity.
+  double peak_rmse(std::size_t of, std::size_t axis) const;
+  double mean_of(std::size_t of, BySample figure, std::optional<std::size_t> phase = std::nullopt) const;
+
+  const Experiment experiment;
+
+ private:
+  void add_figures(const Trace& trace, std::size_t of, double* sums) const;
+  std::size_t at(std::size_t of, std::size_t sample) const { return (of * experiment.samples() + sample) * width_; }
+  double sum(std::size_t of, std::size_t sample, std::size_t figure) const { return sums_[at(of, sample) + figure]; }
+  double runs() const;
+  std::vector<double> weights(std::size_t of, std::size_t sample) const;
+
+  std::vector<std::optional<std::size_t>> manoeuvre_;  // the model that stands for it
+  std::size_t width_ = 0;                              // of the sums of a sample
+  std::vector<std::vector<double>> columns_;           // by batch: how many runs, then figures
+  std::vector<double> sums_;                           // over the runs, in their order
+  std::vector<RunningMean> spread_;                    // of squared errors, by sample and axis
+};
+
+/// So many filters that not all can be told apart at once.
+inline bool crowded(const Experiment& experiment) { return experiment.filters.size() > 6; }
+
+/// A tally by sample as the views of a page: curves over the samples of all runs (Figs. 2–11), and of the first runs
+/// each, up to 8, fewer if many filters would make the page great.
+std::vector<View> views_of(const Tally& tally);
+
+}  // namespace sigmax::apps

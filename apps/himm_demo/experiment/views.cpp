@@ -1,0 +1,162 @@
+#include <sigmax/estimation/chi_square.hpp>
+
+#include "himm_demo/experiment/tally.hpp"
+#include "report/report.hpp"
+
+namespace sigmax::apps {
+namespace {
+
+/// Where a position in plan lies with a probability of 95 %, if it is normal.
+ErrorEllipse error_ellipse(const std::string& group, const Vector<3>& centre, const SquareMatrix<3>& covariance) {
+  const double chi_square = -2.0 * std::log(0.05);  // the 95 % quantile with two degrees of freedom
+  const double mean = 0.5 * (covariance(0, 0) + covariance(1, 1)), apart = 0.5 * (covariance(0, 0) - covariance(1, 1));
+  const double radius = std::hypot(apart, covariance(0, 1));  // of Mohr's circle: variances are mean ± radius
+  const double angle = 0.5 * std::atan2(covariance(0, 1), apart) / degree;
+  const double major = std::sqrt(chi_square * (mean + radius));
+  const double minor = std::sqrt(chi_square * std::max(0.0, mean - radius));
+  // Of both directions of the axis the one from −135° on.
+  return {group, centre.x(), centre.y(), major, minor, angle > 45.0 ? angle - 180.0 : angle};
+}
+
+/// The numbers of all samples, counted from 0.
+template <class Value>
+std::vector<double> by_sample(const Tally& tally, const Value& value) {
+  return each_below(tally.experiment.samples(), value);
+}
+
+LineChart chart(const Tally& tally, std::string title, std::string y_label) {
+  const Phase& manoeuvre = tally.experiment.scenario.phases[1];
+  return {.title = std::move(title),
+          .x_label = "sample",
+          .y_label = std::move(y_label),
+          .x = by_sample(tally, [](std::size_t k) { return static_cast<double>(k + 1); }),
+          .shaded = {{static_cast<double>(manoeuvre.first), static_cast<double>(manoeuvre.last), "manoeuvre"}}};
+}
+
+LineChart rmse_chart(const Tally& tally, std::size_t axis) {
+  LineChart made = chart(tally, fmt::format("RMSE in {}", axis_names[axis]), "RMSE, m");
+  for (std::size_t of = 0; of < tally.size(); ++of) {
+    const auto shifted = [&](double widths) {
+      return by_sample(tally, [&](std::size_t k) {
+        return tally.rmse_at(of, k, axis) + (widths == 0.0 ? 0.0 : widths * tally.half_width_at(of, k, axis));
+      });
+    };
+    Curve& curve = made.curves.emplace_back(Curve{tally.name(of), tally.name(of), shifted(0.0)});
+    if (crowded(tally.experiment)) continue;
+    curve.lower = shifted(-1.0);
+    curve.upper = shifted(1.0);
+  }
+  if (tally.experiment.runs > 1 && !crowded(tally.experiment))
+    made.note = "Bands: 95 % confidence of the RMSE over the runs.";
+  return made;
+}
+
+LineChart error_chart(const Tally& tally, const TracedRun& run, std::size_t axis) {
+  LineChart made = chart(tally, fmt::format("Error in {}", axis_names[axis]), "error, m");
+  for (std::size_t of = 0; of < tally.size(); ++of) {
+    const auto error = [&](std::size_t k) { return run.traces[of].error[k](static_cast<Eigen::Index>(axis)); };
+    made.curves.push_back(
+        {.name = tally.name(of), .group = tally.name(of), .values = by_sample(tally, error), .dots = of == 0});
+  }
+  return made;
+}
+
+/// A curve of each filter and model; the dash tells the model.
+LineChart weights_chart(const Tally& tally, const std::string& mean) {
+  LineChart made = chart(tally, "Mode weights", mean + "probability (IMM) or possibility (HIMM)");
+  made.greatest_y = 1.05;
+  const std::vector<std::string> models = model_names(tally.experiment.filters);
+  for (std::size_t of = 1; of < tally.size(); ++of) {
+    const auto& own = tally.filter(of)->models;
+    for (std::size_t j = 0; j < own.size(); ++j) {
+      const auto weight = [&](std::size_t k) {
+        const std::vector<double> weights = tally.weights_at(of, k);
+        return weights.empty() ? nan : weights[j];
+      };
+      const auto model = std::ranges::find(models, own[j]) - models.begin();
+      made.curves.push_back({.name = tally.name(of) + " " + own[j],
+                             .group = tally.name(of),
+                             .values = by_sample(tally, weight),
+                             .dash = static_cast<int>(model)});
+    }
+  }
+  return made;
+}
+
+LineChart consistency_chart(const Tally& tally, const char* title, const std::string& y_label, Tally::BySample figure) {
+  LineChart made = chart(tally, title, y_label);
+  const Band band = chi_square_band(3, tally.experiment.runs);
+  made.expected = {{band.lower, band.upper, "95 % if consistent"}};
+  for (std::size_t of = 1; of < tally.size(); ++of)
+    made.curves.push_back({tally.name(of), tally.name(of),
+                           by_sample(tally, [&](std::size_t k) { return tally.mean_at(of, k, figure); })});
+  keep_usual(made);
+  return made;
+}
+
+/// The track of a run; with an error ellipse of each filter at a few samples.
+Plan plan(const Tally& tally, const TracedRun& run, std::size_t number) {
+  Plan plan{.title = fmt::format("Track of run {}", number), .x_label = "x, m", .y_label = "y, m"};
+  const auto seen_by = [&](std::size_t of, std::size_t k) -> Vector<3> {
+    return run.truth[k].head<3>() + run.traces[of].error[k];
+  };
+  const auto add = [&](const std::string& name, PlanTrace::Shape shape, const auto& at) {
+    const auto along = [&](Eigen::Index axis) { return by_sample(tally, [&](std::size_t k) { return at(k)(axis); }); };
+    plan.traces.push_back({.name = name, .group = name, .shape = shape, .x = along(0), .y = along(1), .z = along(2)});
+  };
+  for (std::size_t of = 0; of < tally.size(); ++of) {
+    add(tally.name(of), of == 0 ? PlanTrace::Shape::dots : PlanTrace::Shape::line,
+        [&](std::size_t k) { return seen_by(of, k); });
+    if (of == 0) add(truth_name, PlanTrace::Shape::line, [&](std::size_t k) -> Vector<6> { return run.truth[k]; });
+    for (std::size_t k = 4; of > 0 && !crowded(tally.experiment) && k < run.truth.size(); k += 5)
+      if (const auto& covariance = run.traces[of].covariance[k]; !std::isnan(covariance(0, 0)))
+        plan.ellipses.push_back(error_ellipse(tally.name(of), seen_by(of, k), covariance));
+  }
+  // The corners of the target's way from a little before the manoeuvre on.
+  const auto onset = static_cast<std::size_t>(tally.experiment.scenario.onset() - 1);
+  const std::size_t first = onset < 3 ? 0 : onset - 3, last = std::min(onset + 15, run.truth.size() - 1);
+  for (const Eigen::Index axis : {0, 1}) {
+    const auto [least, greatest] = std::minmax(run.truth[first](axis), run.truth[last](axis));
+    plan.focus.insert(plan.focus.end(), {least, greatest});
+  }
+  plan.note = "It opens at the beginning of the manoeuvre.";
+  if (!plan.ellipses.empty()) plan.note += " Ellipses: 95 % as each filter states it, every 5 samples.";
+  return plan;
+}
+
+/// All runs and the track of the first, or one run.
+View view_of(const Tally& tally, const TracedRun& run, std::size_t number, bool one) {
+  const int runs = tally.experiment.runs;
+  View view{one ? fmt::format("run {}", number) : runs == 1 ? "the only run" : fmt::format("all {} runs", runs), {}};
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    view.panels.emplace_back(one ? error_chart(tally, run, axis) : rmse_chart(tally, axis));
+  const std::string mean = one ? "" : "mean ";
+  view.panels.emplace_back(weights_chart(tally, mean));
+  view.panels.emplace_back(consistency_chart(tally, "NEES of the position", mean + "NEES", Tally::nees_position));
+  view.panels.emplace_back(consistency_chart(tally, "NIS", mean + "NIS", Tally::nis));
+  view.panels.emplace_back(plan(tally, run, number));
+  return view;
+}
+
+}  // namespace
+
+std::vector<View> views_of(const Tally& tally) {
+  constexpr std::size_t most_numbers = 42000;                   // some 350 kB
+  const std::size_t per_sample = 12 + (tally.size() - 1) * 12;  // coordinates, errors, weights, NEES and NIS
+  const auto fit = static_cast<int>(most_numbers / (per_sample * tally.experiment.samples()));
+  const int runs = crowded(tally.experiment) ? 1 : std::min(std::clamp(fit, 1, 8), tally.experiment.runs);
+  Experiment one = tally.experiment;
+  one.runs = 1;
+  std::vector<View> views;
+  for (std::uint64_t number = 0; number < static_cast<std::uint64_t>(runs); ++number) {
+    const TracedRun run = one.traced(number);
+    if (number == 0) views.push_back(view_of(tally, run, 1, false));
+    if (crowded(one)) continue;
+    Tally own(one, true);
+    own.add(own.row(number, number + 1));
+    views.push_back(view_of(own, run, number + 1, true));
+  }
+  return views;
+}
+
+}  // namespace sigmax::apps
