@@ -73,6 +73,7 @@ class RecordingReader {
   }
   /// Whether estimates have a latitude and a longitude.
   bool on_the_earth() const { return geodetic() || seen_from_places(); }
+  bool simulated() const { return options_.simulated; }
   bool polar() const { return has(Role::polar); }
   /// Whether azimuths stand without a range.
   bool bearings() const { return has(Role::polar, 1) && !polar(); }

@@ -41,6 +41,17 @@ std::optional<double> not_available(std::string_view header) {
   return std::nullopt;
 }
 
+bool says_unit(std::string_view header, std::string_view unit) {
+  constexpr std::pair<std::string_view, std::string_view> others[] = {
+      {"ft", "feet"}, {"m", "meters"}, {"kmh", "km/h"}, {"mps", "m/s"}, {"kt", "knots"}, {"deg", "degrees"}};
+  const auto known = std::ranges::find(others, unit, [](const auto& one) { return one.first; });
+  for (const std::string_view other : {unit, known == std::end(others) ? unit : known->second})
+    if (header.ends_with(fmt::format("_{}", other)) || header.ends_with(fmt::format("({})", other)) ||
+        header.ends_with(fmt::format("[{}]", other)))
+      return true;
+  return false;
+}
+
 const Quantity* without_known_unit(std::string_view header) {
   const Quantity* found = nullptr;
   std::size_t longest = 0;

@@ -140,6 +140,15 @@ constexpr std::size_t size_of(Role role) {
   return static_cast<std::size_t>(std::ranges::count(quantities, role, &Quantity::role));
 }
 
+/// Whether it is how accurate others of the row are.
+constexpr bool is_accuracy(Role role) {
+  return role == Role::covariance || role == Role::sigma_position || role == Role::sigma_all_axes ||
+         role == Role::sigma_polar;
+}
+
+/// So many covariances has a matrix of so many rows, as far as their diagonal.
+constexpr std::size_t covariances(std::size_t rows) { return rows * (rows + 1) / 2; }
+
 /// Whether a header names a unit at its end: altitude_ft, Altitude (ft), X [ft].
 bool says_unit(std::string_view header, std::string_view unit);
 

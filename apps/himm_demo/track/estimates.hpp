@@ -1,5 +1,7 @@
 #pragma once
 
+#include <sigmax/earth/earth_target.hpp>
+
 #include "himm_demo/filters/settings.hpp"
 #include "report/result.hpp"
 
@@ -8,25 +10,19 @@ namespace sigmax::apps {
 /// estimates.csv: a row for each filter and step.
 class EstimatesFile {
  public:
-  /// A step of a filter, and where on the Earth it is, if it is there.
-  struct Estimate {
-    const std::string& track;
-    const FilterSettings& filter;
-    const TargetPoint& point;
-    const std::optional<Geodetic>& place;
-  };
-
   /// Without files it keeps nothing.
   EstimatesFile(ResultFiles* files, const std::vector<FilterSettings>& filters, const RecordingReader& recording,
                 bool iso_times);
 
   explicit operator bool() const { return file_ && *file_; }
-  void write(const Estimate& estimate) {
-    if (*this) file_->write(each(cells_, [&](const auto& cell) { return cell(estimate); }));
+  void write(const std::string& track, const FilterSettings& filter, const EarthPoint& point) {
+    track_ = track;
+    if (*this) file_->write(each(cells_, [&](const auto& cell) { return cell(point, filter); }));
   }
 
  private:
-  std::vector<std::function<Cell(const Estimate&)>> cells_;
+  std::vector<std::function<Cell(const EarthPoint&, const FilterSettings&)>> cells_;
+  std::string track_;
   std::optional<RowFile> file_;
 };
 

@@ -6,7 +6,7 @@
 
 #include <set>
 
-#include "records/recording.hpp"
+#include "himm_demo/filters/settings.hpp"
 
 namespace sigmax::apps {
 
@@ -32,6 +32,12 @@ struct Sums {
 };
 using SumsByPart = std::array<Sums, row_parts.size()>;
 
+template <class Add>
+void add_by_part(SumsByPart& sums, std::optional<double> roll, const Add& add) {
+  for (std::size_t p = 0; p < row_parts.size(); ++p)
+    if (row_parts[p].holds(roll)) add(sums[p]);
+}
+
 /// What one filter made of the recording.
 struct FilterOutcome {
   SumsByPart sums;
@@ -39,6 +45,12 @@ struct FilterOutcome {
   std::size_t rejected = 0;                                ///< by the gate
   std::size_t restarts = 0;                                ///< after a gap
   std::map<std::string, std::vector<ModeStay>> histories;  ///< of each track, if the filter is to explain
+
+  /// An estimate of a row, whose measurement had so many quantities; and its innovation, with that of its sensor
+  /// before.
+  void add(const Row& row, const TargetPoint& point, std::size_t size, int axes);
+  void add_innovation(const std::string& sensor, const TargetPoint& point, std::size_t size,
+                      std::vector<double>& before);
 };
 
 /// What the list of tracks says of one of them.
@@ -72,20 +84,28 @@ struct TrackOutcome {
   std::size_t rows = 0, measurements = 0;
   std::size_t partial = 0;  ///< of these with a position along some axes only
   std::size_t bearings = 0;
-  std::set<std::string> by_default;                       ///< keys, with their value, of accuracies that nobody gave
-  std::vector<std::string> places;                        ///< sentences on where the sensors stand
-  bool some_unplaced = false;                             ///< whether some stand where all others do
-  std::map<std::string, TrackTally> each;                 ///< of the tracks
-  std::vector<std::string> never_started;                 ///< tracks that are too short for a filter
-  std::map<std::string, std::size_t> sensors;             ///< the rows of each
-  std::map<std::string, std::size_t> velocity_unknown;    ///< those of them with one that no filter knows how to take
-  std::map<std::string, std::size_t> range_rate_unknown;  ///< the same of range rates
-  std::size_t predicted = 0;                              ///< tracks, up to the time that was asked for
-  std::size_t unpredicted = 0;                            ///< the part of them whose filter restarts before that time
+  std::set<std::string> by_default;            ///< keys, with their value, of accuracies that nobody gave
+  std::vector<std::string> places;             ///< sentences on where the sensors stand
+  bool some_unplaced = false;                  ///< whether some stand where all others do
+  std::map<std::string, TrackTally> each;      ///< of the tracks
+  std::vector<std::string> never_started;      ///< tracks that are too short for a filter
+  std::map<std::string, std::size_t> sensors;  ///< the rows of each
+  std::map<std::string, std::map<std::string, std::size_t>>
+      unused;                      ///< those with a number that no filter takes, and why
+  std::size_t predicted = 0;       ///< tracks, up to the time that was asked for
+  std::size_t unpredicted = 0;     ///< the part of them whose filter restarts before that time
   std::optional<Geodetic> origin;  ///< from where positions are counted, if that is one place for all tracks
   Refused refused_by_all;
   std::size_t outliers = 0;  ///< measurements whose NIS is above `outlier_nis` for every filter
   Counted unsuited;          ///< a radar's measurements for which the standard conversion does not hold
+
+  /// What a row of the recording holds, before a simulated radar sees it.
+  void count(const Row& row, const RecordingReader& recording, const std::vector<FilterSettings>& own);
+  /// Whether a filter's standard conversion of a radar's measurement to a position is biased.
+  void judge_conversion(const Row& row, int axes, const std::vector<FilterSettings>& own);
+  /// Says why no filter started. Throws InputError.
+  [[noreturn]] void refuse_nothing(const RecordingReader& recording, const RecordingOptions& options,
+                                   bool several_places) const;
 };
 
 /// Beyond the 0.999998 quantile of χ² with three degrees of freedom.

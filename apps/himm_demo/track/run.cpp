@@ -24,12 +24,6 @@ struct Target {
   const Row& row(std::size_t tag) const { return rows[tag + rows.size() - tally.rows]; }
 };
 
-template <class Add>
-void add_by_part(SumsByPart& sums, std::optional<double> roll, const Add& add) {
-  for (std::size_t p = 0; p < row_parts.size(); ++p)
-    if (row_parts[p].holds(roll)) add(sums[p]);
-}
-
 /// All filters on all targets of one recording.
 class TrackRun {
  public:
@@ -56,7 +50,8 @@ class TrackRun {
     progress.finish();
     if (options_.predict_to) predict();
     for (auto& [name, target] : targets_) end(name, target);
-    if (outcome_.never_started.size() == targets_.size()) refuse_nothing();
+    if (outcome_.never_started.size() == targets_.size())
+      outcome_.refuse_nothing(recording_, options_.recording, places_.several());
     outcome_.places = places_.notes();
     outcome_.some_unplaced = places_.some_unplaced();
     if (file_anchor_ && (fixed_ || recording_.origin() || !recording_.has_tracks())) outcome_.origin = file_anchor_;
@@ -90,7 +85,7 @@ class TrackRun {
           "{}:{}: --iso-times writes dates, and a time of day has none; leave out --iso-times, or write the date "
           "before the times of the recording",
           file(), row.line);
-    count(row);
+    outcome_.count(row, recording_, filters_);
     auto found = targets_.find(row.track);
     if (found == targets_.end()) {
       found = targets_.emplace(row.track, Target{stream_of(options_.seed, row.track), prototypes_}).first;
@@ -102,48 +97,8 @@ class TrackRun {
     if (!target.anchor()) begin(target, row.plot);
     if (options_.radar.sigma) see_by_radar(row, where(row, target), axes_, options_.radar, target.random, file());
     if (sinks_.page || row.truth) measured(row, where(row, target), target);
-    if (is_unsuited(row)) outcome_.unsuited.add(row.line);
+    outcome_.judge_conversion(row, axes_, filters_);
     step(target, std::move(row));
-  }
-
-  /// What the recording holds.
-  void count(const Row& row) {
-    const int axes = axes_seen(row.plot, axes_);
-    ++outcome_.rows;
-    if (row.measured()) ++outcome_.measurements;
-    if (axes > 0 && axes < axes_) ++outcome_.partial;
-    if (row.plot.sensor == AnyPlot::Sensor::bearing) ++outcome_.bearings;
-    if (!options_.radar.sigma) find_defaults(row);
-    if (!recording_.has_sensors()) return;
-    ++outcome_.sensors[row.sensor];
-    const auto known = [&](std::optional<double> Accuracy::*sigma) {
-      return std::ranges::any_of(
-          filters_, [&](const FilterSettings& filter) { return (filter.accuracy_of(row.sensor).*sigma).has_value(); });
-    };
-    if (is_moving(row.plot, axes_) && !known(&Accuracy::velocity_mps)) ++outcome_.velocity_unknown[row.sensor];
-    if (row.plot.sensor == AnyPlot::Sensor::doppler && !known(&Accuracy::range_rate_mps))
-      ++outcome_.range_rate_unknown[row.sensor];
-  }
-
-  /// Which accuracies nobody gave, neither the row nor a key.
-  void find_defaults(const Row& row) {
-    using enum AnyPlot::Sensor;
-    static const Accuracy usual{};
-    static const std::array<std::pair<std::string, double>, 3> keys = {
-        {{"sigma_position_m", usual.position_m.front()},
-         {"sigma_range_m", usual.radar[0]},
-         {"sigma_azimuth_deg", usual.radar[1] / degree}}};
-    const AnyPlot& plot = row.plot;
-    for (std::size_t i = 0; i < static_cast<std::size_t>(plot.size); ++i) {
-      const std::size_t k = plot.sensor == components ? (plot.places[i] < axes_ ? 0 : keys.size())
-                            : plot.sensor == bearing  ? 2
-                                                      : i + 1;
-      if (k < keys.size() && std::isnan(plot.variance(static_cast<int>(i))) &&
-          std::ranges::none_of(filters_, [&](const FilterSettings& filter) {
-            return filter.accuracy_of(row.sensor).given.contains(keys[k].first);
-          }))
-        outcome_.by_default.insert(fmt::format("{} = {:.6g}", keys[k].first, keys[k].second));
-    }
   }
 
   /// Lets the target begin at its first place on the Earth. Where errors or a radar are about one point, the frame of
@@ -174,18 +129,6 @@ class TrackRun {
       });
     if (!sinks_.page) return;
     sinks_.page->measured(row, position, target.anchor() ? std::optional(target.anchor()->origin()) : std::nullopt);
-  }
-
-  /// Whether the standard conversion of a radar's measurement to a position is biased.
-  bool is_unsuited(const Row& row) const {
-    using enum AnyPlot::Sensor;
-    if ((row.plot.sensor != polar && row.plot.sensor != doppler) || row.plot.size < axes_) return false;
-    return std::ranges::any_of(filters_, [&](const FilterSettings& filter) {
-      const Accuracy& own = filter.accuracy_of(row.sensor);
-      const bool converts =
-          filter.radar_measurement == RadarForm::standard && !(row.plot.sensor == doppler && own.range_rate_mps);
-      return converts && row.plot.z[0] * own.radar[1] * own.radar[1] / own.radar[0] >= most_conversion_bias;
-    });
   }
 
   void step(Target& target, Row row) {
@@ -283,32 +226,16 @@ class TrackRun {
       if (point.nis) {
         target.tally.nis[f].sum += *point.nis;
         target.tally.nis[f].quantities += size;
-        std::vector<double>& before = target.innovations[{f, row.sensor}];
-        if (innovation.empty())
-          own.sensors[row.sensor].add_nis(*point.nis, size);
-        else
-          own.sensors[row.sensor].add(innovation, before);
-        before = innovation;
+        own.add_innovation(row.sensor, point, size, target.innovations[{f, row.sensor}]);
       }
-      add_by_part(own.sums, row.roll_deg, [&](Sums& sums) {
-        for (std::size_t axis = 0; axis < static_cast<std::size_t>(axes_); ++axis) {
-          sums.sigma[axis].add_square(point.covariance[axis * (point.mean.size() + 1)]);
-          if (row.truth) sums.error[axis].add(point.mean[axis] - (*row.truth)[axis]);
-        }
-        for (std::size_t j = 0; j < sums.weights.size(); ++j) sums.weights[j] += point.weights[j];
-        if (point.nis) sums.innovations.add_nis(*point.nis, size);
-      });
+      own.add(row, point, size, axes_);
     }
     if (!estimates_ && !sinks_.page) return;
-    std::optional<Geodetic> place;
-    if (target.anchor()) {
-      EarthPoint on_earth = target.filters[f].on_earth(std::move(point), row.predicted);
-      place = on_earth.place;
-      point = std::move(on_earth);
-    }
-    if (f == 0) target.tally.goes_to(point.mean, axes_);
-    estimates_.write({row.track, filter, point, place});
-    if (sinks_.page) sinks_.page->estimated(row, f, point, static_cast<int>(size));
+    EarthPoint known{std::move(point), {}};
+    if (target.anchor()) known = target.filters[f].on_earth(std::move(known), row.predicted);
+    if (f == 0) target.tally.goes_to(known.mean, axes_);
+    estimates_.write(row.track, filter, known);
+    if (sinks_.page) sinks_.page->estimated(row, f, known, static_cast<int>(size));
   }
 
   /// The end of a target whose rows have all been read: the steps as smoothing sees them, and when the modes changed.
@@ -343,33 +270,6 @@ class TrackRun {
         file(), row.line, filters_[f].name, shortest(row.plot.time), error.what());
   }
 
-  [[noreturn]] void refuse_nothing() const {
-    if (outcome_.rows == 0 && !options_.recording.select.empty())
-      throw InputError("{}: no row has {}; see how the file writes the value", file(),
-                       fmt::join(options_.recording.select, " and "));
-    if (outcome_.bearings > 0 && outcome_.bearings == outcome_.measurements)
-      throw InputError(
-          "{}: {}, or give start = \"given\" with start_mean, start_covariance_diagonal and start_time_s", file(),
-          places_.several()
-              ? "the bearings cross at angles too small, or are too few, to tell where a target starts; give two rows "
-                "or more of each station, or models of less freedom (--set \"models=[dwna]\")"
-              : "bearings from one place do not tell where a target starts; name each row's station in a column sensor "
-                "and say where it stands, as sensor.NAME.at = [E, N]");
-    throw InputError(
-        {.where = file(),
-         .what = targets_.size() > 1 ? "no track is long enough for every filter to start"
-                                     : "there is too little for every filter to start",
-         .found = fmt::format("{} rows, {} of them measurements{}", outcome_.rows, outcome_.measurements,
-                              recording_.skipped() == 0
-                                  ? ""
-                                  : fmt::format(", and {} that were skipped for their time", recording_.skipped())),
-         .expected = "more than the three measurements that start a filter (two rows if the start is given)",
-         .remedy = recording_.skipped() > outcome_.rows ? "sort the rows by time"
-                   : outcome_.partial > 0 ? "a track starts from whole positions; drop a column that is always empty, "
-                                            "or give a start (himm_demo keys)"
-                                          : "give more rows, or start = \"given\" with start_time_s"});
-  }
-
   const TrackOptions& options_;
   RecordingReader& recording_;
   int axes_ = recording_.axes();
@@ -392,20 +292,6 @@ class TrackRun {
 TrackOutcome run_track(const TrackOptions& options, RecordingReader& recording,
                        const std::vector<FilterSettings>& filters, TrackSinks sinks) {
   return TrackRun(options, recording, filters, std::move(sinks)).run();
-}
-
-void TrackTally::goes_to(const std::vector<double>& mean, int axes) {
-  Position here{};
-  std::copy_n(mean.begin(), axes, here.begin());
-  if (before) way_m += std::hypot(here[0] - (*before)[0], here[1] - (*before)[1], here[2] - (*before)[2]);
-  before = here;
-}
-
-std::string TrackTally::why_silent() const {
-  constexpr std::size_t start = 3;  // measurements
-  return fmt::format("{} measurement{}; a filter starts from {} whole positions, and tells from the next on{}",
-                     measurements, measurements == 1 ? "" : "s", start,
-                     measurements > start ? ", and these do not lie so near each other" : "");
 }
 
 }  // namespace sigmax::apps

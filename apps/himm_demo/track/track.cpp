@@ -14,174 +14,170 @@ std::string numbered(const Counts& counts) {
 }
 
 /// Makes the report part by part.
-class Reporter {
- public:
-  Reporter(const TrackOptions& options, const RecordingReader& recording, const std::vector<FilterSettings>& filters,
-           const TrackOutcome& outcome, Result& result)
-      : options_(options), recording_(recording), filters_(filters), outcome_(outcome), result_(result) {}
+struct Reporter {
+  const TrackOptions& options;
+  const RecordingReader& recording;
+  const std::vector<FilterSettings>& filters;
+  const TrackOutcome& outcome;
+  Result& result;
+  const std::string& file = recording.file();
+  bool truth_known = options.radar.sigma || recording.has_truth();
 
   /// With the recording's checks, and what a gate would make of it, if that was tried.
   void make(const RecordingChecks& checks, const std::vector<std::string>& findings, const TrackOutcome* gated) {
     add_facts();
     describe();
-    result_.page.title = "Tracks of " + options_.recording.file;
-    result_.page.panels.emplace_back(Words{"The recording", result_.text});
+    result.page.title = "Tracks of " + options.recording.file;
+    result.page.panels.emplace_back(Words{"The recording", result.text});
     judge(findings, gated, checks.assumed());
-    if (recording_.has_tracks()) list_tracks();
-    for (std::size_t p = 0; p < (recording_.has_roll() ? row_parts.size() : 1); ++p) tabulate(p);
+    if (recording.has_tracks()) list_tracks();
+    for (std::size_t p = 0; p < (recording.has_roll() ? row_parts.size() : 1); ++p) tabulate(p);
     explain();
-    result_.page.last.emplace_back(Words{"Settings in force", as_toml(filters_), true});
+    result.page.last.emplace_back(Words{"Settings in force", as_toml(filters), true});
   }
 
- private:
   void add_facts() {
-    result_.facts("file", file_, "seed", options_.seed);
-    if (const auto& sigma = options_.radar.sigma)
-      result_.facts_at({"radar"}, "sigma_range_m", (*sigma)[0], "sigma_azimuth_deg", (*sigma)[1], "sigma_elevation_deg",
-                       (*sigma)[2]);
-    if (options_.radar.sigma || outcome_.some_unplaced)
-      for (std::size_t i = 0; i < 3; ++i) result_.fact({"radar", "at_m", i}, options_.radar.place()[i]);
-    if (const auto& origin = outcome_.origin)
-      result_.facts_at({"origin"}, "latitude_deg", origin->latitude_deg, "longitude_deg", origin->longitude_deg,
-                       "altitude_m", origin->altitude_m);
-    result_.facts("rows", outcome_.rows, "measurements", outcome_.measurements);
-    if (outcome_.partial > 0) result_.fact({"partial_measurements"}, outcome_.partial);
-    if (outcome_.bearings > 0) result_.fact({"bearings"}, outcome_.bearings);
-    result_.fact({"skipped"}, recording_.skipped());
-    for (const auto& [sensor, rows] : outcome_.sensors) result_.fact({"sensors", sensor}, rows);
-    if (recording_.has_tracks())
-      result_.facts_at({"tracks"}, "count", outcome_.each.size(), "never_started", outcome_.never_started);
-    result_.fact({"settings_toml"}, as_toml(filters_));
+    result.facts("file", file, "seed", options.seed);
+    if (const auto& sigma = options.radar.sigma)
+      result.facts_at({"radar"}, "sigma_range_m", (*sigma)[0], "sigma_azimuth_deg", (*sigma)[1], "sigma_elevation_deg",
+                      (*sigma)[2]);
+    if (options.radar.sigma || outcome.some_unplaced)
+      for (std::size_t i = 0; i < 3; ++i) result.fact({"radar", "at_m", i}, options.radar.place()[i]);
+    if (const auto& origin = outcome.origin)
+      result.facts_at({"origin"}, "latitude_deg", origin->latitude_deg, "longitude_deg", origin->longitude_deg,
+                      "altitude_m", origin->altitude_m);
+    result.facts("rows", outcome.rows, "measurements", outcome.measurements);
+    if (outcome.partial > 0) result.fact({"partial_measurements"}, outcome.partial);
+    if (outcome.bearings > 0) result.fact({"bearings"}, outcome.bearings);
+    result.fact({"skipped"}, recording.skipped());
+    for (const auto& [sensor, rows] : outcome.sensors) result.fact({"sensors", sensor}, rows);
+    if (recording.has_tracks())
+      result.facts_at({"tracks"}, "count", outcome.each.size(), "never_started", outcome.never_started);
+    result.fact({"settings_toml"}, as_toml(filters));
   }
 
   /// The verdict, above all else: the findings, which are causes, or what they leave to be said of the result.
   void judge(const std::vector<std::string>& findings, const TrackOutcome* gated,
              const std::optional<std::string>& assumed) {
     std::vector<std::string> lines = findings;
-    if (lines.empty()) lines.push_back(verdict_of(options_, recording_, filters_, outcome_, gated));
-    for (const auto& filter : filters_)
+    if (lines.empty()) lines.push_back(verdict_of(options, recording, filters, outcome, gated));
+    for (const auto& filter : filters)
       for (const auto& [sensor, own] : filter.sensors)
-        if (!outcome_.sensors.contains(sensor))
+        if (!outcome.sensors.contains(sensor))
           lines.push_back(fmt::format("key 'sensor.{}' of filter '{}': {} has no row of that sensor; correct the name",
-                                      sensor, filter.name, file_));
-    result_.fact({"verdict"}, lines);
-    result_.page.verdict = lines;
-    const std::string described = std::exchange(result_.text, "");
-    if (assumed) result_.say(*assumed);
-    for (std::size_t i = 0; i < lines.size(); ++i) result_.say((i == 0 ? "Verdict: " : "Also: ") + lines[i]);
-    result_.text += described;
+                                      sensor, filter.name, file));
+    result.fact({"verdict"}, lines);
+    result.page.verdict = lines;
+    const std::string described = std::exchange(result.text, "");
+    if (assumed) result.say(*assumed);
+    for (std::size_t i = 0; i < lines.size(); ++i) result.say((i == 0 ? "Verdict: " : "Also: ") + lines[i]);
+    result.text += described;
   }
 
   /// Which filters have some of these, and how many.
   std::vector<std::pair<std::string, std::size_t>> counted(const char* what, std::size_t FilterOutcome::*count) {
     std::vector<std::pair<std::string, std::size_t>> counts;
-    for (std::size_t f = 0; f < filters_.size(); ++f) {
-      if (outcome_.filters[f].*count == 0) continue;
-      counts.emplace_back(filters_[f].name, outcome_.filters[f].*count);
-      result_.fact({what, filters_[f].name}, counts.back().second);
+    for (std::size_t f = 0; f < filters.size(); ++f) {
+      if (outcome.filters[f].*count == 0) continue;
+      counts.emplace_back(filters[f].name, outcome.filters[f].*count);
+      result.fact({what, filters[f].name}, counts.back().second);
     }
     return counts;
   }
 
   /// What was read and how the filters started, in sentences.
   void describe() {
-    const auto say = [&](bool holds, const std::string& words) { result_.say({{holds, words}}); };
-    const bool converted = std::ranges::none_of(filters_, [](const FilterSettings& filter) {
-      return filter.radar_measurement == RadarForm::polar || filter.accuracy.range_rate_mps;
-    });
+    const auto say = [&](bool holds, const std::string& words) { result.say({{holds, words}}); };
+    const bool has_angles = recording.axes() == 2 || recording.holds(place_of(Role::polar) + 2);
+    const bool converted = has_angles && std::ranges::none_of(filters, [](const FilterSettings& filter) {
+                             return filter.radar_measurement == RadarForm::polar || filter.accuracy.range_rate_mps;
+                           });
     std::vector<std::string> parts;  // of the measurements that are not positions along all axes
-    if (outcome_.partial > 0) parts.push_back(fmt::format("{} along some axes only", outcome_.partial));
-    if (outcome_.bearings > 0) parts.push_back(fmt::format("{} bearings", outcome_.bearings));
-    say(true, fmt::format("{}: {} rows, {} measurements{}, {} {}{}{}", file_, outcome_.rows, outcome_.measurements,
-                          parts.empty() ? "" : fmt::format(" ({})", fmt::join(parts, ", ")), recording_.axes(),
-                          recording_.axes() == 1 ? "axis" : "axes",
-                          recording_.geodetic() ? ", geodetic to local east-north-up" : "",
-                          !recording_.polar() ? ""
-                          : converted         ? ", a radar's measurements converted"
-                                              : ", a radar's measurements"));
-    say(true, fmt::format("Taken for: {}", recording_.taken()));
-    say(!outcome_.by_default.empty(),
-        fmt::format("Sigmas that are the defaults: {}", fmt::join(outcome_.by_default, ", ")));
-    say(recording_.moves_alone(),
+    if (outcome.partial > 0) parts.push_back(fmt::format("{} along some axes only", outcome.partial));
+    if (outcome.bearings > 0) parts.push_back(fmt::format("{} bearings", outcome.bearings));
+    say(true, fmt::format("{}: {} rows, {} measurements{}, {} {}{}{}", file, outcome.rows, outcome.measurements,
+                          parts.empty() ? "" : fmt::format(" ({})", fmt::join(parts, ", ")), recording.axes(),
+                          recording.axes() == 1 ? "axis" : "axes",
+                          recording.geodetic() ? ", geodetic to local east-north-up" : "",
+                          !recording.polar() ? ""
+                          : converted        ? ", a radar's measurements converted"
+                                             : ", a radar's measurements"));
+    say(true, fmt::format("Taken for: {}", recording.taken()));
+    say(!outcome.by_default.empty(),
+        fmt::format("Sigmas that are the defaults: {}", fmt::join(outcome.by_default, ", ")));
+    say(recording.moves_alone(),
         "There are no positions: without a given start a track starts at 0, a step before its first row, and positions "
         "are counted from there");
-    say(recording_.geodetic() && !truth_known_,
+    say(recording.geodetic() && !truth_known,
         "σ assumes white measurement noise; GNSS errors are correlated, so true errors are larger");
-    for (const auto& notes : {recording_.notes(), outcome_.places})
+    for (const auto& notes : {recording.notes(), outcome.places})
       for (const std::string& note : notes) say(true, note);
-    say(recording_.has_sensors() && !outcome_.sensors.empty(), "Rows by sensor: " + numbered(outcome_.sensors));
-    say(!outcome_.velocity_unknown.empty(),
-        "Rows whose velocity does not count, for want of sensor.NAME.sigma_velocity_mps: " +
-            numbered(outcome_.velocity_unknown));
-    say(!outcome_.range_rate_unknown.empty(),
-        "Rows whose range rate does not count, for want of sensor.NAME.sigma_range_rate_mps: " +
-            numbered(outcome_.range_rate_unknown));
-    const std::size_t short_ones = outcome_.never_started.size();
-    say(recording_.has_tracks(),
-        fmt::format("{} track{} by {}{}", outcome_.each.size(), outcome_.each.size() == 1 ? "" : "s",
-                    options_.recording.track_id,
+    say(recording.has_sensors() && !outcome.sensors.empty(), "Rows by sensor: " + numbered(outcome.sensors));
+    for (const auto& [why, rows] : outcome.unused) say(true, fmt::format("Rows whose {}: {}", why, numbered(rows)));
+    const std::size_t short_ones = outcome.never_started.size();
+    say(recording.has_tracks(),
+        fmt::format("{} track{} by {}{}", outcome.each.size(), outcome.each.size() == 1 ? "" : "s",
+                    options.recording.track_id,
                     short_ones == 0 ? ""
-                    : outcome_.bearings == outcome_.measurements
+                    : outcome.bearings == outcome.measurements
                         ? fmt::format(", {} of them without bearings that cross, from which every filter could start",
                                       short_ones)
                         : fmt::format(", {} of them too short for every filter to start", short_ones)));
-    say(recording_.skipped() > 0,
-        fmt::format("Skipped {} rows whose time was not after that of the row before", recording_.skipped()));
-    say(outcome_.unpredicted > 0,
+    say(recording.skipped() > 0,
+        fmt::format("Skipped {} rows whose time was not after that of the row before", recording.skipped()));
+    say(outcome.unpredicted > 0,
         fmt::format("Nothing is predicted of {} of {} tracks, as restart_after_s goes by before that time",
-                    outcome_.unpredicted, outcome_.predicted));
-    say(options_.predict_to && outcome_.predicted == 0, "Nothing is predicted: every track ends at that time or later");
+                    outcome.unpredicted, outcome.predicted));
+    say(options.predict_to && outcome.predicted == 0, "Nothing is predicted: every track ends at that time or later");
     const auto rejected = counted("rejected", &FilterOutcome::rejected);
     const auto restarts = counted("restarts", &FilterOutcome::restarts);
     say(!rejected.empty(), "Measurements that the gate turned away: " + numbered(rejected));
-    say(outcome_.refused_by_all.rows > 0,
-        fmt::format("Turned away by every filter: {}, the first on line {}", outcome_.refused_by_all.rows,
-                    outcome_.refused_by_all.first_line));
+    say(outcome.refused_by_all.rows > 0, fmt::format("Turned away by every filter: {}, the first on line {}",
+                                                     outcome.refused_by_all.rows, outcome.refused_by_all.first_line));
     say(!restarts.empty(), "Starts after a gap, or after rejections in a row: " + numbered(restarts));
-    const auto sigma = options_.radar.sigma.value_or(Position{});
-    const auto at = options_.radar.place();
-    say(options_.radar.sigma.has_value(),
+    const auto sigma = options.radar.sigma.value_or(Position{});
+    const auto at = options.radar.place();
+    say(options.radar.sigma.has_value(),
         fmt::format("The recording is taken as the truth and measured by a simulated radar: {} m, {}°, {}° at ({}, {}, "
                     "{}) m, seed {}",
                     shortest(sigma[0]), shortest(sigma[1]), shortest(sigma[2]), shortest(at[0]), shortest(at[1]),
-                    shortest(at[2]), options_.seed));
+                    shortest(at[2]), options.seed));
   }
 
   /// The table of one part of the rows: a row for the measurement, if its error is known, and for each filter.
   void tabulate(std::size_t p) {
     ResultTable table;
-    if (truth_known_) table.row_of(row_of(p, outcome_.raw[p], nullptr));
-    for (std::size_t f = 0; f < filters_.size(); ++f)
-      table.row_of(row_of(p, outcome_.filters[f].sums[p], &filters_[f]));
+    if (truth_known) table.row_of(row_of(p, outcome.raw[p], nullptr));
+    for (std::size_t f = 0; f < filters.size(); ++f) table.row_of(row_of(p, outcome.filters[f].sums[p], &filters[f]));
     const std::string part(row_parts[p].name);
-    result_.add(table, {.summary = {"results", part}, .title = fmt::format("Rows: {}", part)});
+    result.add(table, {.summary = {"results", part}, .title = fmt::format("Rows: {}", part)});
   }
 
   /// A row for each track: what it is and how well the filters follow it.
   void list_tracks() {
-    const bool gated = std::ranges::any_of(outcome_.filters, [](const FilterOutcome& one) { return one.rejected > 0; });
+    const bool gated = std::ranges::any_of(outcome.filters, [](const FilterOutcome& one) { return one.rejected > 0; });
     ResultTable table;
-    for (const auto& [name, track] : outcome_.each) {
+    for (const auto& [name, track] : outcome.each) {
       std::vector<Field> fields = {
           {of_words("track", "track"), name},
           {{.key = "rows", .header = "rows"}, track.rows},
           {{.key = "duration_s", .header = "lasts", .unit = "s", .digits = 0}, track.last_time - track.first_time},
           {{.key = "way_m", .header = "way", .unit = "km", .scale = 1e-3},
            track.estimates == 0 ? Cell(nan, "–") : Cell(track.way_m)}};
-      for (std::size_t f = 0; f < filters_.size(); ++f) {
+      for (std::size_t f = 0; f < filters.size(); ++f) {
         const auto& [nis, quantities, rejected] = track.nis[f];
-        const std::string& filter = filters_[f].name;
+        const std::string& filter = filters[f].name;
         fields.push_back({{.key = "nis_ratio_" + filter, .header = filter, .sized = true, .group = "NIS, right is 1:"},
                           quantities > 0 ? Cell(nis / static_cast<double>(quantities)) : Cell(nan, "–")});
       }
-      for (std::size_t f = 0; gated && f < filters_.size(); ++f)
-        fields.push_back({{.key = "rejected_" + filters_[f].name, .header = filters_[f].name, .group = "turned away:"},
+      for (std::size_t f = 0; gated && f < filters.size(); ++f)
+        fields.push_back({{.key = "rejected_" + filters[f].name, .header = filters[f].name, .group = "turned away:"},
                           track.nis[f].rejected});
       fields.push_back({of_words("", "estimates"), track.estimates == 0 ? track.why_silent() : ""});
       table.row_of(fields);
     }
-    result_.add(table, {.printed = false, .summary = {"tracks", "each"}});
-    result_.page.panels.emplace_back(
+    result.add(table, {.printed = false, .summary = {"tracks", "each"}});
+    result.page.panels.emplace_back(
         ReportTable{"The tracks", table, "A click on a name opens the track, one on a head sorts by it."});
   }
 
@@ -192,7 +188,7 @@ class Reporter {
     std::vector<Field> fields = {{of_words("filter", std::string(row_parts[p].name)), name},
                                  {{.key = "rows", .header = "rows"}, count}};
     const auto add = [&](std::string_view key, const std::string& group, const std::array<RootMeanSquare, 3>& values) {
-      for (std::size_t axis = 0; axis < static_cast<std::size_t>(recording_.axes()); ++axis) {
+      for (std::size_t axis = 0; axis < static_cast<std::size_t>(recording.axes()); ++axis) {
         const std::string of(1, "xyz"[axis]);
         fields.push_back({{.key = fmt::format("{}_{}_m", key, of), .header = of, .sized = true, .group = group},
                           values[axis].count() > 0 ? Cell(values[axis].value())
@@ -200,7 +196,7 @@ class Reporter {
                                                    : Cell()});
       }
     };
-    if (truth_known_) add("rmse", "RMSE, m:", sums.error);
+    if (truth_known) add("rmse", "RMSE, m:", sums.error);
     add("sigma", "σ, m:", sums.sigma);
     const InnovationTally& nis = sums.innovations;
     const bool judged = filter && nis.count() > 0;
@@ -217,7 +213,7 @@ class Reporter {
       weights.push_back(fmt::format("{} {:.3f}", filter->models[j], weight));
     }
     fields.push_back({of_words("", "mean weights"), list_of(weights)});
-    for (const auto& model : model_names(filters_)) {
+    for (const auto& model : model_names(filters)) {
       const auto weight = by_model.find(model);
       fields.push_back({{.key = "mean_weight_" + model}, weight == by_model.end() ? Cell() : Cell(weight->second)});
     }
@@ -227,46 +223,23 @@ class Reporter {
   /// When the modes changed; all of it in the data, the first changes in the text.
   void explain() {
     constexpr std::size_t shown = 12;
-    for (std::size_t f = 0; f < filters_.size(); ++f)
-      for (const auto& [track, stays] : outcome_.filters[f].histories) {
+    for (std::size_t f = 0; f < filters.size(); ++f)
+      for (const auto& [track, stays] : outcome.filters[f].histories) {
         if (stays.empty()) continue;
         std::vector<std::string> told;
         for (std::size_t i = 0; i < stays.size(); ++i) {
-          const std::string& mode = filters_[f].models[stays[i].mode];
-          result_.facts_at({"histories", filters_[f].name, track, i}, "since_s", stays[i].since, "mode", mode, "start",
-                           stays[i].is_start);
+          const std::string& mode = filters[f].models[stays[i].mode];
+          result.facts_at({"histories", filters[f].name, track, i}, "since_s", stays[i].since, "mode", mode, "start",
+                          stays[i].is_start);
           if (i < shown) told.push_back(fmt::format("{} from {} s", mode, shortest(stays[i].since)));
         }
-        result_.text += "\n";
-        result_.say("Best history by {}{}: {}{}", filters_[f].name, track.empty() ? "" : " of " + track,
-                    fmt::join(told, ", "),
-                    stays.size() > shown ? fmt::format(", and {} changes more", stays.size() - shown) : "");
+        result.text += "\n";
+        result.say("Best history by {}{}: {}{}", filters[f].name, track.empty() ? "" : " of " + track,
+                   fmt::join(told, ", "),
+                   stays.size() > shown ? fmt::format(", and {} changes more", stays.size() - shown) : "");
       }
   }
-
-  const TrackOptions& options_;
-  const RecordingReader& recording_;
-  const std::vector<FilterSettings>& filters_;
-  const TrackOutcome& outcome_;
-  Result& result_;
-  const std::string& file_ = recording_.file();
-  bool truth_known_ = options_.radar.sigma || recording_.has_truth();
 };
-
-/// What the proposed gate makes of outliers; nothing where there are none, or where a recording comes only once.
-std::optional<TrackOutcome> with_gate(TrackOptions options, const RecordingOptions& what,
-                                      std::vector<FilterSettings> filters, const TrackOutcome& outcome) {
-  if (outcome.outliers == 0 || what.file == "-" || !std::filesystem::is_regular_file(what.file)) return std::nullopt;
-  options.output.quiet = true;
-  options.predict_to.reset();
-  for (FilterSettings& filter : filters) {
-    if (filter.gate_probability < 1.0) return std::nullopt;
-    filter.gate_probability = outlier_gate;
-    filter.smooth = filter.explain = false;
-  }
-  RecordingReader recording(what);
-  return run_track(options, recording, filters, {});
-}
 
 void track_and_report(TrackOptions options) {
   RecordingOptions what = options.recording;
@@ -298,7 +271,7 @@ void track_and_report(TrackOptions options) {
   const auto gated = findings.empty() ? with_gate(options, what, filters, outcome) : std::nullopt;
   if (tracks) tracks->finish(outcome);
   Result result(options.output);
-  Reporter(options, recording, filters, outcome, result).make(checks, findings, gated ? &*gated : nullptr);
+  Reporter{options, recording, filters, outcome, result}.make(checks, findings, gated ? &*gated : nullptr);
   if (tracks) tracks->add_to(result.page, outcome);
   result.publish(files);
 }

@@ -36,6 +36,10 @@ TrackOutcome run_track(const TrackOptions& options, RecordingReader& recording,
 /// The gate that is proposed where there are outliers.
 inline constexpr double outlier_gate = 0.9999;
 
+/// What that makes of outliers; nothing where there are none, or where a recording comes only once.
+std::optional<TrackOutcome> with_gate(TrackOptions options, const RecordingOptions& what,
+                                      std::vector<FilterSettings> filters, const TrackOutcome& outcome);
+
 /// Whether the filters are consistent with the measurements, or what is wrong, with its number and the one thing to do.
 /// `gated` is the outcome with that gate, if it was tried.
 std::string verdict_of(const TrackOptions& options, const RecordingReader& recording,

@@ -196,4 +196,18 @@ std::string verdict_of(const TrackOptions& options, const RecordingReader& recor
                      100.0 * innovations.share_inside());
 }
 
+std::optional<TrackOutcome> with_gate(TrackOptions options, const RecordingOptions& what,
+                                      std::vector<FilterSettings> filters, const TrackOutcome& outcome) {
+  if (outcome.outliers == 0 || what.file == "-" || !std::filesystem::is_regular_file(what.file)) return std::nullopt;
+  options.output.quiet = true;
+  options.predict_to.reset();
+  for (FilterSettings& filter : filters) {
+    if (filter.gate_probability < 1.0) return std::nullopt;
+    filter.gate_probability = outlier_gate;
+    filter.smooth = filter.explain = false;
+  }
+  RecordingReader recording(what);
+  return run_track(options, recording, filters, {});
+}
+
 }  // namespace sigmax::apps
