@@ -17,8 +17,12 @@ std::string of_column(const std::string& name, fmt::format_string<Words...> form
   return "column " + in_quotes(name) + fmt::format(format, std::forward<Words>(words)...);
 }
 
-std::size_t rows_with(const TableColumn& column, std::size_t word) {
-  return static_cast<std::size_t>(std::ranges::count(column.cells, static_cast<double>(word)));
+/// How often each cell is there that is not missing.
+std::map<double, std::size_t> times_of(const TableColumn& column) {
+  std::map<double, std::size_t> times;
+  for (const double cell : column.cells)
+    if (!std::isnan(cell)) ++times[cell];
+  return times;
 }
 
 /// Whether numbers rise from row to row, as whole numbers or by even steps.
@@ -42,40 +46,26 @@ std::string names_rows(const LabelledTable& table, const TableColumn& column) {
   const auto blank = std::ranges::count_if(column.cells, [](double cell) { return std::isnan(cell); });
   const std::size_t cells = table.size() - static_cast<std::size_t>(blank), words = column.words.size();
   if (cells < few_rows || 3 * words <= 2 * cells) return "";
-  if (std::ranges::all_of(column.words, [](const auto& word) { return parse_number(word).has_value(); }))
-    return of_column(column.name, ": {} numbers in {} cells count as words by --categorical; take them as numbers",
-                     words, cells);
   return of_column(column.name, " names the rows ({} words in {} cells); leave it out by --ignore {}", words, cells,
                    typed(column.name));
 }
 
-/// A column that alone tells the class: by few values, each of one class, or by numbers between which limits lie.
+/// A column that alone tells the class, by few values, each of one class.
 std::string tells_class(const LabelledTable& table, const TableColumn& column) {
   constexpr std::size_t few_values = 8;
   std::map<double, std::size_t> class_of;
-  std::vector<std::pair<double, double>> ranges(table.classes.size(), {infinity, -infinity});
-  bool by_value = true;
   std::size_t rows = 0;
   for (std::size_t row = 0; row < table.size(); ++row) {
-    const double value = column.cells[row];
-    if (std::isnan(value)) continue;
+    if (std::isnan(column.cells[row])) continue;
     ++rows;
-    const std::size_t its_class = table.labels[row];
-    auto& [low, high] = ranges[its_class];
-    low = std::min(low, value), high = std::max(high, value);
-    by_value =
-        by_value && class_of.size() < few_values && class_of.try_emplace(value, its_class).first->second == its_class;
+    const auto found = class_of.try_emplace(column.cells[row], table.labels[row]).first;
+    if (found->second != table.labels[row] || class_of.size() >= few_values) return "";
   }
-  by_value = by_value && class_of.size() >= ranges.size() && rows >= 2 * class_of.size();
-  std::ranges::sort(ranges);
-  bool by_limits = column.numeric() && ranges.back().first < infinity;
-  for (std::size_t k = 1; k < ranges.size(); ++k) by_limits = by_limits && ranges[k - 1].second < ranges[k].first;
-  if (rows < few_rows || !(by_value || by_limits)) return "";
-  return of_column(
-      column.name,
-      " alone tells the class of all {} rows that have a value; if it is not known before the class, leave "
-      "it out by --ignore {}",
-      rows, typed(column.name));
+  if (rows < few_rows || class_of.size() < table.classes.size() || rows < 2 * class_of.size()) return "";
+  return of_column(column.name,
+                   " alone tells the class of all {} rows that have a value; if it is not known before the class, "
+                   "leave it out by --ignore {}",
+                   rows, typed(column.name));
 }
 
 /// Whether a number is 99, -999, -99.9 or 8888, the least or greatest of an integer type, or beyond all sense.
@@ -91,9 +81,7 @@ bool is_code(double number) {
 /// other; or a code of which there are no others below 0.
 std::string far_numbers(const TableColumn& column) {
   constexpr std::size_t again = 3, few_values = 8, most_codes = 3;
-  std::map<double, std::size_t> all;
-  for (const double number : column.cells)
-    if (!std::isnan(number)) ++all[number];
+  const auto all = times_of(column);
   for (const bool above : {false, true}) {
     std::map<double, std::size_t> rest = all;
     std::vector<std::string> words;
@@ -126,7 +114,7 @@ std::string sentinels(const LabelledTable& table, const TableColumn& column) {
   if (unknown == column.words.end()) return "";
   return of_column(column.name,
                    ": {} of {} rows hold {}, a value among words; if it stands for none, give --missing={}",
-                   rows_with(column, static_cast<std::size_t>(unknown - column.words.begin())), table.size(),
+                   std::ranges::count(column.cells, static_cast<double>(unknown - column.words.begin())), table.size(),
                    in_quotes(*unknown), typed(*unknown));
 }
 
@@ -165,34 +153,9 @@ std::string written_numbers(const TableColumn& column) {
                    numbers, fmt::join(others, " and "), fmt::join(others, ","));
 }
 
-/// Cells that are missing because of the class.
-std::string gaps(const LabelledTable& table, const TableColumn& column) {
-  std::vector<double> shares(table.classes.size());
-  for (std::size_t row = 0; row < table.size(); ++row)
-    if (std::isnan(column.cells[row]))
-      shares[table.labels[row]] += 1.0 / static_cast<double>(table.rows_of_class[table.labels[row]]);
-  std::vector<std::size_t> known;  // classes of which one can tell
-  for (std::size_t c = 0; c < shares.size(); ++c)
-    if (table.rows_of_class[c] >= few_rows) known.push_back(c);
-  if (column.missing_is_value || known.empty()) return "";
-  const auto [least, most] = std::ranges::minmax(known, {}, [&](std::size_t c) { return shares[c]; });
-  if (shares[most] - shares[least] < 0.5) return "";
-  return of_column(
-      column.name,
-      ": {:.0f} % of the cells of class {} are missing, {:.0f} % of {}; if that is known before the class, "
-      "give --missing-value {}",
-      100.0 * shares[most], in_quotes(table.classes[most]), 100.0 * shares[least], in_quotes(table.classes[least]),
-      typed(column.name));
-}
-
-std::string written_otherwise(const std::string& column, const std::vector<std::string>& words) {
-  const std::string two = alike({words.begin(), words.end()});
-  return two.empty() ? "" : of_column(column, ": {} differ in writing only, and count as two; write them alike", two);
-}
-
 std::vector<std::string> of_classes(const LabelledTable& table) {
   const auto& classes = table.classes;
-  std::vector<std::string> found = {written_otherwise(table.label, classes)};
+  std::vector<std::string> found;
   if (std::ranges::find(classes, table.label) != classes.end())
     found.push_back(fmt::format("the first row looks like data, since {} is also a class; put a row of names above it",
                                 in_quotes(table.label)));
@@ -201,8 +164,7 @@ std::vector<std::string> of_classes(const LabelledTable& table) {
                               classes.size(), table.size()));
   for (std::size_t c = 0; c < classes.size(); ++c) {
     const std::string name = lower_case(classes[c]);
-    const bool is_minus = name == "-" && std::ranges::find(classes, "+") == classes.end();
-    if (says_unknown(name) || is_minus || name == "--" || name == "unknown")
+    if (says_unknown(name) || name == "--" || name == "unknown")
       found.push_back(of_column(table.label,
                                 ": {} of {} rows hold {}, which counts as a class; if their class is not "
                                 "known, remove these rows",
@@ -211,26 +173,9 @@ std::vector<std::string> of_classes(const LabelledTable& table) {
   return found;
 }
 
-/// How often two rows have the same in a column, and how many different cells there are.
-std::pair<double, std::size_t> sameness(const LabelledTable& table, const TableColumn& column) {
-  auto cells = each_below(table.size(), [&](std::size_t row) {
-    const double value = column.cells[row];
-    return std::isnan(value) ? infinity : value;
-  });
-  std::ranges::sort(cells);
-  double squares = 0.0;
-  std::size_t different = 0;
-  for (auto first = cells.begin(); first != cells.end(); ++different) {
-    const auto last = std::upper_bound(first, cells.end(), *first);
-    squares += std::pow(static_cast<double>(last - first) / static_cast<double>(cells.size()), 2);
-    first = last;
-  }
-  return {squares, different};
-}
-
-/// Rows, of all or of a class, that repeat another, and not by chance.
+/// Rows that repeat another, and not by chance: two columns tell most rows apart.
 std::string copies(const LabelledTable& table) {
-  std::vector<std::pair<std::size_t, std::size_t>> rows;  // class and hash
+  std::set<std::pair<std::size_t, std::size_t>> rows;  // class and hash
   for (std::size_t row = 0; row < table.size(); ++row) {
     std::size_t hash = 0;
     for (const TableColumn& column : table.columns) {
@@ -238,33 +183,15 @@ std::string copies(const LabelledTable& table) {
       hash = (hash ^ std::hash<double>{}(std::isnan(value) ? infinity : value)) * 0x9E3779B97F4A7C15U;
       hash ^= hash >> 32U;
     }
-    rows.emplace_back(table.labels[row], hash);
+    rows.emplace(table.labels[row], hash);
   }
-  std::ranges::sort(rows);
-  rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
-  std::vector<std::size_t> differ(table.classes.size());
-  for (const auto& [its_class, hash] : rows) ++differ[its_class];
-  std::size_t all = table.size(), different = rows.size(), c = 0;
-  std::string which = fmt::format("{} rows", all);
-  while (c < differ.size() && (table.rows_of_class[c] < few_rows || 2 * differ[c] > table.rows_of_class[c])) ++c;
-  if (c < differ.size() && 2 * different > all) {
-    which = "the rows of class " + in_quotes(table.classes[c]);
-    all = table.rows_of_class[c], different = differ[c];
-  }
-  // Where two columns tell most rows apart none is the same by chance; else if half of the columns hang on the others.
-  std::size_t fine = 0;
-  const auto n = static_cast<double>(all);
-  double pairs = n * n / 2.0;
-  for (const TableColumn& column : table.columns) {
-    const auto [same, values] = sameness(table, column);
-    fine += 2 * values > rows.size() ? 1U : 0U;
-    pairs *= std::sqrt(same);
-  }
-  if (10 * (all - different) < all || all < few_rows) return "";
-  if (fine < 2 && 10.0 * pairs >= static_cast<double>(all - different)) return "";
+  const std::size_t all = table.size(), copied = all - rows.size();
+  if (10 * copied < all || all < few_rows) return "";
+  const auto is_fine = [&](const TableColumn& column) { return 2 * times_of(column).size() > rows.size(); };
+  if (std::ranges::count_if(table.columns, is_fine) < 2) return "";
   return fmt::format(
-      "{:.0f} % of {} repeat another, label included, so that too many answers are right; drop the copies",
-      100.0 * (1.0 - static_cast<double>(different) / n), which);
+      "{:.0f} % of {} rows repeat another, label included, so that too many answers are right; drop the copies",
+      100.0 * static_cast<double>(copied) / static_cast<double>(all), all);
 }
 
 }  // namespace
@@ -276,9 +203,8 @@ std::vector<std::string> findings_of(const LabelledTable& table) {
     const std::string written = column.numeric() ? "" : written_numbers(column);
     found.push_back(written.empty() ? names_rows(table, column) : written);
     if (!found.back().empty()) continue;  // the cause of what else there is to see
-    for (std::string& more : std::vector{tells_class(table, column), sentinels(table, column), gaps(table, column),
-                                         written_otherwise(column.name, column.words)})
-      found.push_back(std::move(more));
+    found.push_back(tells_class(table, column));
+    found.push_back(sentinels(table, column));
   }
   std::erase(found, "");
   return found;

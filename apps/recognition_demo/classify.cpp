@@ -1,6 +1,5 @@
 #include "recognition_demo/contest.hpp"
 #include "recognition_demo/model_file.hpp"
-#include "recognition_demo/subcommands.hpp"
 #include "shell/progress.hpp"
 
 namespace sigmax::apps {
@@ -56,12 +55,8 @@ class RowReader {
   std::size_t place(const CsvRow& row, std::size_t column, const TableFeature& feature, const char* what) {
     const std::string_view cell = trimmed(row[column]);
     if (const auto found = feature.find(cell)) return *found;
-    const auto other = std::ranges::find_if(feature.words, [&](const std::string& word) {
-      return !alike({word, cell}).empty();
-    });
-    return unseen(
-        row, column, what + listed(feature.words, 12),
-        other == feature.words.end() ? remedy : fmt::format("if it is {}, write it as there", in_quotes(*other)));
+    const std::string nearest = nearest_word(cell, feature.words);
+    return unseen(row, column, what + listed(feature.words, 12), nearest.empty() ? remedy : nearest);
   }
 
   /// Counts what is to be taken as missing, or throws.
@@ -101,26 +96,31 @@ struct ShownRow {
   std::size_t line;
   std::string truth;  ///< empty if it is not known
   Readings readings;
-  std::vector<std::string> decisions;
+};
+
+/// The rows of a file, classified one after the other.
+struct Classified {
+  std::size_t rows = 0;
+  std::vector<Tally> tallies;
+  std::vector<ShownRow> shown;
+  ResultTable decisions;  ///< of the rows that are shown
 };
 
 std::string number(double value) {
   return std::isfinite(value) ? fmt::format("{:.3g}", value) : value > 0.0 ? "∞" : "-∞";
 }
 
-/// Why the best class rather than the next one, with prior and belief of both; none if the readings exclude every
-/// class.
-std::optional<ResultTable> explanation(const TableClassifier& by, const Readings& readings) {
+/// Why the best class rather than the next one, with prior and belief of both.
+ResultTable explanation(const TableClassifier& by, const Readings& readings) {
   const TablePrediction prediction = by.predict(readings);
-  if (prediction.excluded) return std::nullopt;
+  if (prediction.excluded)
+    return ResultTable({of_words("", fmt::format("{}: the readings exclude every class", by.name()))});
+  const auto belief = degrees_of(prediction.belief);
   auto why = by.explain(readings);
   std::ranges::stable_sort(why.contributions, std::greater{},
                            [](const Contribution& one) { return std::abs(one.log_ratio); });
   const auto& pattern = by.model().counts.pattern();
   const std::string best = pattern.label(why.pattern), next = pattern.label(why.rival);
-  const auto belief = [&](std::size_t c) {
-    return std::visit([&](const auto& all) { return all[c]; }, prediction.belief);
-  };
   ResultTable table({of_words("", fmt::format("{}: {} rather than {}, because", by.name(), best, next)),
                      {.header = "the same of " + next},
                      {.header = "log of the ratio"}});
@@ -130,21 +130,13 @@ std::optional<ResultTable> explanation(const TableClassifier& by, const Readings
     table.row({each.equation, number(std::exp(each.rival_log_likelihood)), number(each.log_ratio)});
   table.rule();
   table.row(
-      {fmt::format("{} = {:.4g}", best, belief(why.pattern)), number(belief(why.rival)), number(why.log_ratio())});
+      {fmt::format("{} = {:.4g}", best, belief[why.pattern]), number(belief[why.rival]), number(why.log_ratio())});
   return table;
 }
-
-/// The rows of a file, classified one after the other.
-struct Classified {
-  std::size_t rows = 0;
-  std::vector<Tally> tallies;
-  std::vector<ShownRow> shown;
-};
 
 Classified classify_all(const ClassifyOptions& options, const std::vector<TableClassifier>& all, CsvReader& reader,
                         RowReader& rows, RowFile& file) {
   const auto& pattern = all.front().model().counts.pattern();
-  const auto label = [&](std::size_t c) { return c == missing ? "" : pattern.label(c); };
   Classified result;
   for (const TableClassifier& one : all)
     result.tallies.push_back({std::string(one.name()), std::vector<std::size_t>(pattern.size())});
@@ -152,60 +144,46 @@ Classified classify_all(const ClassifyOptions& options, const std::vector<TableC
   for (CsvRow row; reader.next(row); ++result.rows) {
     const Readings readings = rows.readings(row);
     const std::size_t truth = rows.truth(row);
-    ShownRow shown{row.line(), label(truth), readings, {}};
+    const std::string its_class = truth == missing ? "" : pattern.label(truth);
+    std::vector<Field> fields = {{{.header = "line"}, row.line()}};
+    if (rows.has_truth()) fields.push_back({of_words("", pattern.name()), its_class});
     for (std::size_t i = 0; i < all.size(); ++i) {
       Tally& tally = result.tallies[i];
       const TablePrediction prediction = all[i].predict(readings);
-      const bool rejected = prediction.margin < options.least_margin;
-      const bool fuzzy = std::holds_alternative<Belief<Fuzzy>>(prediction.belief);
-      if (prediction.excluded) ++tally.excluded;
-      if (rejected) {
-        ++tally.rejected;
-      } else {
-        ++tally.decided[prediction.pattern];
-        if (truth != missing) ++tally.judged;
-        if (truth == prediction.pattern) ++tally.right;
-      }
-      shown.decisions.push_back(fmt::format("{} ({} {:.3f}{})", rejected ? "rejected" : prediction.label,
-                                            fuzzy ? "N" : "margin", prediction.margin,
-                                            !rejected && prediction.tied > 1 ? ", a tie" : ""));
+      const bool decided = prediction.margin >= options.least_margin;
+      tally.excluded += prediction.excluded ? 1U : 0U;
+      tally.rejected += decided ? 0U : 1U;
+      tally.decided[prediction.pattern] += decided ? 1U : 0U;
+      tally.judged += decided && truth != missing ? 1U : 0U;
+      tally.right += decided && truth == prediction.pattern ? 1U : 0U;
+      fields.push_back({of_words("", tally.name),
+                        fmt::format("{} ({} {:.3f}{})", decided ? prediction.label : "rejected",
+                                    std::holds_alternative<Belief<Fuzzy>>(prediction.belief) ? "N" : "margin",
+                                    prediction.margin, decided && prediction.tied > 1 ? ", a tie" : "")});
       if (!file) continue;
-      std::vector<Cell> cells = {row.line(), tally.name, rejected ? Cell() : Cell(prediction.label), prediction.margin};
-      if (rows.has_truth()) cells.insert(cells.begin() + 1, label(truth));
-      std::visit(
-          [&](const auto& belief) {
-            for (std::size_t c = 0; c < belief.size(); ++c) cells.emplace_back(belief[c]);
-          },
-          prediction.belief);
+      std::vector<Cell> cells = {row.line(), tally.name, decided ? Cell(prediction.label) : Cell(), prediction.margin};
+      if (rows.has_truth()) cells.insert(cells.begin() + 1, its_class);
+      for (const double degree : degrees_of(prediction.belief)) cells.emplace_back(degree);
       file.write(cells);
     }
-    if (result.rows < options.rows) result.shown.push_back(std::move(shown));
+    if (result.rows < options.rows) {
+      result.decisions.row_of(fields);
+      result.shown.push_back({row.line(), its_class, readings});
+    }
     progress.advance(reader.bytes_read() - progress.done());
   }
   progress.finish();
+  if (result.rows == 0) throw InputError("{}: there is no row below the header", reader.file());
   return result;
-}
-
-ResultTable shown_table(const std::string& label, bool has_truth, const std::vector<TableClassifier>& all,
-                        const std::vector<ShownRow>& shown) {
-  ResultTable table;
-  for (const ShownRow& row : shown) {
-    std::vector<Field> fields = {{{.header = "line"}, row.line}};
-    if (has_truth) fields.push_back({of_words("", label), row.truth});
-    for (std::size_t i = 0; i < all.size(); ++i)
-      fields.push_back({of_words("", std::string(all[i].name())), row.decisions[i]});
-    table.row_of(fields);
-  }
-  return table;
 }
 
 ResultTable totals_table(const RandomVariable& pattern, bool has_truth, const Classified& result) {
   constexpr std::size_t most_classes = 10;
-  const std::size_t shown_classes = pattern.size() <= most_classes ? pattern.size() : 0;
   ResultTable table;
   for (const Tally& tally : result.tallies) {
     std::vector<Field> row = {{of_words("", fmt::format("all {} rows", result.rows)), tally.name}};
-    for (std::size_t c = 0; c < shown_classes; ++c) row.push_back({{.header = pattern.label(c)}, tally.decided[c]});
+    for (std::size_t c = 0; c < pattern.size() && pattern.size() <= most_classes; ++c)
+      row.push_back({{.header = pattern.label(c)}, tally.decided[c]});
     row.push_back({{.header = "rejected"}, tally.rejected});
     const bool all_known = tally.judged + tally.rejected == result.rows;
     if (has_truth)
@@ -217,53 +195,24 @@ ResultTable totals_table(const RandomVariable& pattern, bool has_truth, const Cl
   return table;
 }
 
-void add_facts(const ClassifyOptions& options, const RandomVariable& pattern, const Classified& found,
-               const RowReader& rows, Result& result) {
-  result.facts("model", options.model, "file", options.file, "rows", found.rows, "least_margin", options.least_margin);
-  if (rows.unseen_cells > 0) result.fact({"unseen_cells_counted_as_missing"}, rows.unseen_cells);
-  for (const Tally& tally : found.tallies) {
-    for (std::size_t c = 0; c < pattern.size(); ++c)
-      result.fact({"classifiers", tally.name, "decided", pattern.label(c)}, tally.decided[c]);
-    result.fact({"classifiers", tally.name, "rejected"}, tally.rejected);
-    if (tally.judged > 0) result.fact({"classifiers", tally.name, "accuracy_of_the_decided"}, *tally.accuracy());
-  }
-}
-
 /// The support that a row gives to each class, and why.
 View view_of(const ShownRow& row, const RandomVariable& pattern, const std::vector<TableClassifier>& all) {
   View view{fmt::format("line {}", row.line), {}};
-  HeatMap support{
+  view.panels.emplace_back(HeatMap{
       .title = row.truth.empty() ? "Support of the classes" : "Support of the classes; true is " + row.truth,
       .row_label = "classifier",
       .column_label = pattern.name(),
       .rows = each(all, [](const TableClassifier& one) { return std::string(one.name()); }),
       .columns = labels_of(pattern),
-      .values = each(all, [&](const TableClassifier& one) { return numbers_of(one.predict(row.readings).belief); }),
-      .value_label = "probability or possibility"};
-  view.panels.emplace_back(std::move(support));
+      .values = each(all, [&](const TableClassifier& one) { return degrees_of(one.predict(row.readings).belief); }),
+      .value_label = "probability or possibility"});
   for (const TableClassifier& one : all)
-    if (auto why = explanation(one, row.readings))
-      view.panels.emplace_back(ReportTable{std::string(one.name()), std::move(*why)});
-    else
-      view.panels.emplace_back(Words{std::string(one.name()), "The readings exclude every class."});
+    view.panels.emplace_back(ReportTable{std::string(one.name()), explanation(one, row.readings)});
   return view;
 }
 
-void fill(Report& page, const ClassifyOptions& options, const TableModel& model,
-          const std::vector<TableClassifier>& all, const Classified& result, bool has_truth) {
-  constexpr std::size_t most_views = 200;
-  const auto& pattern = model.counts.pattern();
-  page.chooser = "Row";
-  page.verdict = {fmt::format("{} rows, classified by {}; {}.", result.rows, options.model, described(model.options))};
-  page.panels.emplace_back(ReportTable{"All rows", totals_table(pattern, has_truth, result)});
-  for (std::size_t i = 0; i < std::min(most_views, result.shown.size()); ++i)
-    page.views.push_back(view_of(result.shown[i], pattern, all));
-  if (page.views.size() < result.rows)
-    page.verdict.push_back(fmt::format("The first {} rows can be chosen; --rows says how many.", page.views.size()));
-  page.last = relation_maps(learned_relations(model.counts, model.options.smoothing), 6);
-}
-
 void run_classify(const ClassifyOptions& options) {
+  constexpr std::size_t most_views = 200;
   refuse_to_overwrite(options.output, {options.model, options.file}, {"predictions.csv"});
   ResultFiles files(options.output);
   const SavedModel saved = read_model(options.model);
@@ -277,7 +226,6 @@ void run_classify(const ClassifyOptions& options) {
   for (std::size_t c = 0; c < pattern.size(); ++c) keys.push_back(pattern.label(c));
   RowFile file(files, "predictions.csv", keys);
   const Classified found = classify_all(options, all, reader, rows, file);
-  if (found.rows == 0) throw InputError("{}: there is no row below the header", reader.file());
 
   Result result = result_of_contest("Classes of " + options.file, options.output);
   result.say("{}: {} rows, by {}", reader.file(), found.rows, options.model);
@@ -285,22 +233,35 @@ void run_classify(const ClassifyOptions& options) {
     result.say("\n{} as missing, since the model does not know {}: {}",
                rows.unseen_cells == 1 ? "1 cell counts" : fmt::format("{} cells count", rows.unseen_cells),
                rows.unseen_cells == 1 ? "it" : "them; the first", rows.first_unseen);
-  if (!found.shown.empty()) result.add(shown_table(pattern.name(), rows.has_truth(), all, found.shown), {});
-  result.add(totals_table(pattern, rows.has_truth(), found), {});
-  for (const Tally& tally : found.tallies)
+  if (!found.shown.empty()) result.add(found.decisions, {});
+  const ResultTable totals = totals_table(pattern, rows.has_truth(), found);
+  result.add(totals, {});
+  result.facts("model", options.model, "file", options.file, "rows", found.rows, "least_margin", options.least_margin);
+  if (rows.unseen_cells > 0) result.fact({"unseen_cells_counted_as_missing"}, rows.unseen_cells);
+  for (const Tally& tally : found.tallies) {
     if (tally.excluded > 0)
       result.say("{}: {} rows excluded every class and were judged by the prior", tally.name, tally.excluded);
-  if (options.explain)
-    for (const ShownRow& row : found.shown) {
-      result.text += fmt::format("\nline {}\n", row.line);
-      for (const TableClassifier& one : all)
-        if (const auto table = explanation(one, row.readings))
-          result.add(*table, {});
-        else
-          result.text += fmt::format("\n{}: the readings exclude every class\n", one.name());
-    }
-  add_facts(options, pattern, found, rows, result);
-  if (files.report_wanted()) fill(result.page, options, saved.model, all, found, rows.has_truth());
+    for (std::size_t c = 0; c < pattern.size(); ++c)
+      result.fact({"classifiers", tally.name, "decided", pattern.label(c)}, tally.decided[c]);
+    result.fact({"classifiers", tally.name, "rejected"}, tally.rejected);
+    if (tally.judged > 0) result.fact({"classifiers", tally.name, "accuracy_of_the_decided"}, *tally.accuracy());
+  }
+  for (std::size_t k = 0; options.explain && k < found.shown.size(); ++k) {
+    result.text += fmt::format("\nline {}\n", found.shown[k].line);
+    for (const TableClassifier& one : all) result.add(explanation(one, found.shown[k].readings), {});
+  }
+  if (files.report_wanted()) {
+    Report& page = result.page;
+    page.chooser = "Row";
+    page.panels.emplace_back(ReportTable{"All rows", totals});
+    for (std::size_t k = 0; k < std::min(most_views, found.shown.size()); ++k)
+      page.views.push_back(view_of(found.shown[k], pattern, all));
+    page.verdict = {
+        fmt::format("{} rows, classified by {}; {}.", found.rows, options.model, described(saved.model.options))};
+    if (page.views.size() < found.rows)
+      page.verdict.push_back(fmt::format("The first {} rows can be chosen; --rows says how many.", page.views.size()));
+    page.last = relation_maps(saved.model);
+  }
   result.publish(files);
 }
 

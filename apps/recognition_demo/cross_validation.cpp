@@ -1,6 +1,5 @@
 #include "recognition_demo/cross_validation.hpp"
 
-#include <map>
 #include <set>
 
 #include <sigmax/recognition/folds.hpp>
@@ -51,42 +50,6 @@ void add(std::vector<Outcome>& outcomes, std::vector<Outcome> fold) {
   }
 }
 
-/// The fold of every row, that of its group.
-Folds grouped_folds(const LabelledTable& data, const Groups& groups, std::size_t folds, std::mt19937_64& generator) {
-  constexpr int most_tries = 100;
-  std::vector<std::size_t> rows;                               // of each group
-  std::vector<std::set<std::size_t>> of(data.classes.size());  // the groups of each class
-  for (std::size_t row = 0; row < data.size(); ++row) {
-    const std::size_t own = groups[row];
-    rows.resize(std::max(rows.size(), own + 1));
-    ++rows[own];
-    of[data.labels[row]].insert(own);
-  }
-  if (rows.size() < folds)
-    throw InputError("{}: found {} groups, expected at least as many as the {} folds; give fewer --folds", data.file,
-                     rows.size(), folds);
-  std::vector<std::size_t> order = each_below(rows.size(), std::identity{}), fold(rows.size());
-  const auto is_parted = [&](const std::set<std::size_t>& its) {
-    return std::ranges::any_of(its, [&](std::size_t one) { return fold[one] != fold[*its.begin()]; });
-  };
-  for (int tried = 0; tried == 0 || !std::ranges::all_of(of, is_parted); ++tried) {
-    if (tried == most_tries) {
-      const auto whole = std::ranges::find_if_not(of, is_parted);
-      throw InputError(
-          "{}: the rows of class {} are of {} groups, which came into one fold: expected two at least, one to learn "
-          "from, one to classify",
-          data.file, in_quotes(data.classes[static_cast<std::size_t>(whole - of.begin())]), whole->size());
-    }
-    for (std::size_t left = order.size(); left > 1; --left) std::swap(order[left - 1], order[generator() % left]);
-    std::vector<std::size_t> sizes(folds);
-    for (const std::size_t one : order) {
-      fold[one] = static_cast<std::size_t>(std::ranges::min_element(sizes) - sizes.begin());
-      sizes[fold[one]] += rows[one];
-    }
-  }
-  return each(groups, [&](std::uint32_t group) { return fold[group]; });
-}
-
 }  // namespace
 
 Groups groups_of(const LabelledTable& data, const std::string& column) {
@@ -97,23 +60,32 @@ Groups groups_of(const LabelledTable& data, const std::string& column) {
   for (CsvRow row; reader.next(row);) {
     const std::string_view name = trimmed(row[place]);
     if (name.empty() || says_unknown(name)) throw row.error(place, "the name of the row's group", "fill the cell");
-    groups.push_back(static_cast<std::uint32_t>(names.number(name)));
+    groups.push_back(names.number(name));
   }
+  std::vector<std::set<std::size_t>> of(data.classes.size());
+  for (std::size_t row = 0; row < data.size(); ++row) of[data.labels[row]].insert(groups[row]);
+  for (std::size_t c = 0; c < of.size(); ++c)
+    if (of[c].size() < 2)
+      throw InputError(
+          "{}: the rows of class {} are of one group: expected two at least, one to learn from, one to classify",
+          data.file, in_quotes(data.classes[c]));
   return groups;
 }
 
 Folds divided(const LabelledTable& data, const std::optional<Groups>& groups, std::size_t folds,
-              std::mt19937_64& generator) {
-  return groups ? grouped_folds(data, *groups, folds, generator) : stratified_folds(data.labels, folds, generator);
+              std::mt19937_64& generator) try {
+  return groups ? grouped_folds(data.labels, *groups, folds, generator)
+                : stratified_folds(data.labels, folds, generator);
+} catch (const std::invalid_argument& error) {
+  throw InputError("{}: {}; give fewer --folds", data.file, error.what());
 }
 
-Interval Results::minus_first(std::size_t i, std::size_t foldings) const {
+Interval Results::minus_first(std::size_t i) const {
   RunningMean by_row, by_group;
   std::vector<std::pair<double, double>> sums;  // of a group's differences, and its rows
   for (std::size_t row = 0; row < times_right.size(); ++row) {
     const TimesRight& times = times_right[row];
-    const double difference =
-        (static_cast<double>(times[i]) - static_cast<double>(times[0])) / static_cast<double>(foldings);
+    const double difference = of_a_folding(static_cast<double>(times[i]) - static_cast<double>(times[0]));
     by_row.add(difference);
     if (!groups) continue;
     const std::size_t group = (*groups)[row];
@@ -134,7 +106,7 @@ std::vector<TableClassifier> taught(const LabelledTable& data, const Folds& fold
 
 Results cross_validated(const LabelledTable& data, const std::optional<Groups>& groups,
                         const EvaluateOptions& options) {
-  Results results{{}, std::vector<Results::TimesRight>(data.size()), groups};
+  Results results{{}, std::vector<Results::TimesRight>(data.size()), groups, options.foldings};
   const int threads = threads_or_all(options.threads);
   Progress progress("folds", options.folds * options.foldings, options.output.quiet);
   std::mt19937_64 generator(options.seed);

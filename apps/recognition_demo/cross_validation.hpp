@@ -26,15 +26,14 @@ struct EvaluateOptions {
 
 /// The fold of each row, and the group.
 using Folds = std::vector<std::size_t>;
-using Groups = std::vector<std::uint32_t>;
+using Groups = std::vector<std::size_t>;
 
 /// A number of each row, the same where a column of the file that the data is of holds the same word. Throws InputError
-/// for an empty cell, or a column that there is not.
+/// for an empty cell, a column that there is not, and a class whose rows are of one group.
 Groups groups_of(const LabelledTable& data, const std::string& column);
 
-/// Divides the rows into folds: by equal shares of every class, or whole groups by chance, each into one of the folds
-/// with the fewest rows. Throws InputError if there are fewer groups than folds, or if the rows of a class cannot be
-/// parted so.
+/// Divides the rows into folds of equal shares of every class, or of whole groups. Throws InputError where that cannot
+/// be.
 Folds divided(const LabelledTable& data, const std::optional<Groups>& groups, std::size_t folds,
               std::mt19937_64& generator);
 
@@ -61,10 +60,15 @@ struct Results {
   std::vector<Outcome> outcomes;
   std::vector<TimesRight> times_right;  ///< by row
   std::optional<Groups> groups;         ///< that rows are of, if --groups tells
+  std::size_t foldings;
+
+  /// Of a sum over the foldings the mean.
+  double of_a_folding(double sum) const { return sum / static_cast<double>(foldings); }
+  double of_a_folding(std::size_t sum) const { return of_a_folding(static_cast<double>(sum)); }
 
   /// Right answers of a classifier less those of the first, paired by row; a row counts by its mean over the foldings.
   /// Of groups, if there are any, the rows do not depend on chance apart: the interval is that of sums over groups.
-  Interval minus_first(std::size_t i, std::size_t foldings) const;
+  Interval minus_first(std::size_t i) const;
 };
 
 /// The classifiers that the rows of the other folds teach.

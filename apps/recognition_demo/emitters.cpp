@@ -135,7 +135,7 @@ Contestant usage_aware_contestant(const EsmWorld& world, const Usage& usage, con
   }
   const RandomVariable variable{"usage", usages.size()};
   const std::vector features{FeatureModel<Random, Random>{{world.emitter, variable, usages}, sensor}};
-  return {"sigma, averages over usages", SigmaClassifier{normalized(variable, prior), features},
+  return {"sigma, averages over usages", Classifier{normalized(variable, prior), features},
           Relation<Random, Random>{world.platform, variable, platforms}, false};
 }
 

@@ -120,7 +120,7 @@ ResultTable regime_table(const Regime& regime) {
     std::vector<Field> row = {{of_words("", "setting"), setting.name}};
     for (const Score& score : setting.scores) {
       const std::string group = score.name + ":";
-      row.push_back({{.header = "right, %", .digits = 1, .scale = 100.0, .group = group}, score.accuracy.back()});
+      row.push_back({{.header = "right, %", .digits = 1, .scale = 100.0, .group = group}, score.accuracy()});
       if (&score != &setting.scores.front())
         row.push_back(
             {{.header = "− sigma's", .scale = 100.0, .sign = true, .group = group}, score.minus_first.interval()});
@@ -140,10 +140,13 @@ std::pair<std::string, ResultTable> verdict_of(const std::vector<Regime>& all) {
   std::size_t better_count = 0, worse = 0, undecided = 0;
   for (const Regime& regime : all)
     for (const Setting& setting : regime.settings)
-      for (std::size_t i = 0; i < setting.scores.size(); ++i) {
-        const Score& score = setting.scores[i];
-        if (!score.has_possibilities || score.same_as < i) continue;
+      for (const Score& score : setting.scores) {
         const Interval difference = score.minus_first.interval();
+        const auto decides_alike = [&](const Score& other) {
+          const Interval its = other.minus_first.interval();
+          return its.mean == difference.mean && its.half_width == difference.half_width;
+        };
+        if (!score.has_possibilities || std::any_of(setting.scores.data(), &score, decides_alike)) continue;
         ++(difference.above_zero() ? better_count : difference.below_zero() ? worse : undecided);
         if (difference.above_zero()) better.row({regime.name, setting.name, score.name, difference});
       }
@@ -172,7 +175,7 @@ HeatMap regime_map(const Regime& regime) {
     const Interval points = scores[c + 1].minus_first.interval();
     return HeatMap::Cell{std::abs(points.mean) < 1e-12 ? 0.0 : points.mean,  // what only rounding parts
                          fmt::format("± {:.1f}; {:.1f} % right, sigma {:.1f} %", 100.0 * points.half_width,
-                                     100.0 * scores[c + 1].accuracy.back(), 100.0 * scores.front().accuracy.back())};
+                                     100.0 * scores[c + 1].accuracy(), 100.0 * scores.front().accuracy())};
   });
   return map;
 }
@@ -184,8 +187,7 @@ Condition condition_of(const EsmWorld& world, const Setting& setting, std::size_
   RandomStream for_names(seed, 0);
   return {contestants(for_names), [&, contestants, reports, seed](std::size_t run) {
             RandomStream random(seed, run);
-            std::vector<Contestant> anew;
-            if (setting.seen > 0) anew = contestants(random);
+            auto anew = setting.seen > 0 ? contestants(random) : std::vector<Contestant>();
             Drawn drawn = draw_run(world, setting.truth, reports, random);
             drawn.contestants = std::move(anew);
             return drawn;
@@ -219,7 +221,7 @@ void tell(const std::vector<Regime>& all, std::size_t reports, const DrawOptions
       result.add(scores_table(setting.scores), {.printed = false, .summary = {"regimes", regime.name, setting.name}});
       for (const Score& score : setting.scores) {
         const Interval difference = score.minus_first.interval();
-        rows.row({regime.name, setting.name, score.name, score.accuracy.back(), difference.mean, difference.lower(),
+        rows.row({regime.name, setting.name, score.name, score.accuracy(), difference.mean, difference.lower(),
                   difference.upper()});
       }
     }

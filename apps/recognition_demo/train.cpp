@@ -1,11 +1,11 @@
 #include <map>
+#include <numeric>
 
 #include <sigmax/recognition/dominance.hpp>
 
 #include "checks/table_checks.hpp"
 #include "recognition_demo/contest.hpp"
 #include "recognition_demo/model_file.hpp"
-#include "recognition_demo/subcommands.hpp"
 
 namespace sigmax::apps {
 namespace {
@@ -39,6 +39,8 @@ TableModel of_rows(const TrainOptions& options, Result& result) {
 /// Where the bins of a feature begin and end, and how often one class was seen in each.
 struct Bins {
   std::vector<double> edges, counts;
+
+  double sum() const { return std::accumulate(counts.begin(), counts.end(), 0.0); }
 };
 
 std::size_t place_of(std::vector<std::string>& names, std::string_view name) {
@@ -82,7 +84,7 @@ TableModel of_counts(const TrainOptions& options, Result& result) {
   for (std::size_t i = 0; i < names.size(); ++i) {
     const auto& edges = all[{0, i}].edges;
     for (std::size_t c = 0; c < classes.size(); ++c)
-      if (all[{c, i}].edges != edges || !(sum_of(all[{c, i}].counts) > 0.0))
+      if (all[{c, i}].edges != edges || !(all[{c, i}].sum() > 0.0))
         throw InputError({.where = reader.file(),
                           .what = fmt::format("class {}, feature {}", in_quotes(classes[c]), in_quotes(names[i])),
                           .expected = "counts, in the same bins for every class"});
@@ -94,7 +96,7 @@ TableModel of_counts(const TrainOptions& options, Result& result) {
     double rows = 0.0;  // as many as the most counted feature tells
     for (std::size_t i = 0; i < names.size(); ++i) {
       const auto& counts = all[{c, i}].counts;
-      rows = std::max(rows, sum_of(counts));
+      rows = std::max(rows, all[{c, i}].sum());
       for (std::size_t b = 0; b < counts.size(); ++b) model.counts.observe_value(c, i, b, counts[b]);
     }
     model.counts.observe(c, nothing, rows);

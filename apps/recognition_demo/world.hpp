@@ -20,6 +20,15 @@ struct DrawOptions {
 };
 void add_draws(Subcommand app, DrawOptions& options, const std::string& command, std::size_t runs);
 
+/// One of the classifiers that are compared on the same reports.
+struct Contestant {
+  std::string name;
+  AnyClassifier classifier;
+  /// For a sigma classifier of something finer than the pattern: the pattern of each of its outcomes.
+  std::optional<Relation<Random, Random>> pattern_given_state = std::nullopt;
+  bool has_possibilities = true;  ///< anywhere: of the pattern, of the feature, or of the reading
+};
+
 /// One run: the true pattern, and the reports about it.
 struct Drawn {
   std::size_t truth;
@@ -33,6 +42,16 @@ struct Condition {
   std::function<Drawn(std::size_t run)> draw;
 };
 
+/// What a contestant made of one run.
+struct Trace {
+  /// After each report: 1 if the truth alone is the most likely pattern, 1/n if it is one of n, else 0.
+  std::vector<double> credit;
+  /// Probability or possibility of every pattern after the last report.
+  std::vector<double> belief;
+  /// Reports that would have excluded every pattern; the classifier passed over them.
+  std::size_t refused = 0;
+};
+
 /// A run, and what each contestant made of it.
 struct SeenRun {
   std::size_t condition, run;
@@ -43,15 +62,15 @@ struct SeenRun {
 /// What all runs together say of one contestant.
 struct Score {
   std::string name;
-  bool fuzzy = false;
-  bool has_possibilities = false;
-  std::vector<double> accuracy{};   ///< mean credit after 1, 2, … reports
-  RunningMean minus_first{};        ///< credit after the last report, less that of the first contestant, by run
-  double belief_in_truth = 0.0;     ///< mean probability or possibility of the truth after the last report
-  double necessity_of_truth = 0.0;  ///< mean of 1 − the greatest possibility of another pattern; fuzzy only
-  double ties = 0.0;                ///< share of the runs that end in a tie for the most likely
-  std::size_t refused = 0;          ///< reports that were passed over
-  std::size_t same_as = 0;          ///< the first contestant with the same credit at the end of every run
+  bool fuzzy, has_possibilities;
+  std::vector<RunningMean> right{};  ///< credit after 1, 2, … reports
+  RunningMean minus_first{};         ///< credit after the last report, less that of the first contestant, by run
+  RunningMean belief_in_truth{};     ///< probability or possibility of the truth after the last report
+  RunningMean necessity_of_truth{};  ///< 1 − the greatest possibility of another pattern
+  RunningMean ties{};                ///< whether the run ends in a tie for the most likely
+  std::size_t refused = 0;           ///< reports that were passed over
+
+  double accuracy() const { return right.back().mean(); }
 };
 using Scores = std::vector<Score>;
 
@@ -65,10 +84,6 @@ struct World {
   std::vector<Condition> conditions;
   std::function<void(const std::vector<Scores>& scores, Result& result)> tell{};  ///< the scores of each condition
   std::function<void(const SeenRun& run)> see{};                                  ///< every run, in order, if wanted
-  /// How the page shows a run, if it shows any, and how many of each condition. Before them comes a view of all runs,
-  /// to which `tell` adds its panels.
-  std::function<View(const SeenRun& run)> view{};
-  std::size_t runs_in_page = 0;
 };
 
 /// Draws all runs of all conditions, by threads or ranks, and publishes what the world tells of them.
@@ -76,17 +91,10 @@ void run_world(const World& world, const DrawOptions& options, ResultFiles& file
 
 /// Shares of right decisions after some numbers of reports, the belief in the truth, and each difference from the
 /// first.
-ResultTable scores_table(const Scores& scores, const std::string& what_is_counted = "reports");
+ResultTable scores_table(const Scores& scores);
 
-/// The table in all its places, with what it cannot say, and curves.csv: report,classifier,accuracy.
-void add_scores(Result& result, const Scores& scores, const std::string& what_is_counted = "reports");
-
-/// Shares of right decisions over the reports, one curve a contestant.
-LineChart accuracy_chart(const Scores& scores, const std::string& what_is_counted = "reports");
-
-/// The columns of a file of beliefs at the end of runs, after others, and their cells.
-std::vector<std::string> with_beliefs(std::vector<std::string> keys, const std::vector<Contestant>& contestants,
-                                      const std::vector<std::string>& patterns);
-std::vector<Cell> with_beliefs(std::vector<Cell> cells, const SeenRun& run);
+/// The table in all its places, with what it cannot say, shares of right decisions over the reports on the page, and
+/// curves.csv: report,classifier,accuracy.
+void add_scores(Result& result, const Scores& scores);
 
 }  // namespace sigmax::apps

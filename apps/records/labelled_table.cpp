@@ -20,7 +20,7 @@ class ColumnReader {
   ColumnReader(std::size_t index, std::string name, bool categorical, bool missing_is_value)
       : index_(index), name_(std::move(name)), categorical_(categorical), missing_is_value_(missing_is_value) {}
 
-  void take(const CsvRow& row, MissingWords& missing) {
+  void take(const CsvRow& row, const MissingWords& missing) {
     const std::string_view cell = trimmed(row[index_]);
     const bool empty = missing(cell);
     const auto number = empty ? std::nullopt : parse_number(cell);
@@ -125,7 +125,7 @@ std::vector<ColumnReader> columns_of(const CsvReader& reader, const TableReading
 }
 
 /// The class of a row.
-std::string_view class_in(const CsvRow& row, std::size_t label, const CsvReader& reader, MissingWords& missing) {
+std::string_view class_in(const CsvRow& row, std::size_t label, const CsvReader& reader, const MissingWords& missing) {
   if (trimmed(row[label]) == reader.names()[label] && is_header(row, reader))
     throw row.error(label, "the name of a class, and not the header again", "drop the line");
   if (missing(row[label]))
@@ -150,23 +150,18 @@ bool says_unknown(std::string_view word) {
 }
 
 MissingWords::MissingWords(const std::vector<std::string>& more) {
-  for (const auto& text : more) more_.push_back({text, parse_number(text)});
+  for (const auto& text : more) more_.emplace_back(text, parse_number(text));
 }
 
-bool MissingWords::operator()(std::string_view cell) {
+bool MissingWords::operator()(std::string_view cell) const {
   const std::string_view text = trimmed(cell);
   if (text.empty() || text == "?") return true;
-  for (Word& word : more_)
-    if (word.text == text || (word.number && word.number == parse_number(text))) return word.met = true;
-  return false;
+  return std::ranges::any_of(more_, [&](const auto& word) {
+    return word.first == text || (word.second && word.second == parse_number(text));
+  });
 }
 
-std::vector<std::string> MissingWords::unmet() const {
-  if (std::ranges::any_of(more_, &Word::met)) return {};
-  return each(more_, [](const Word& word) { return in_quotes(word.text); });
-}
-
-bool MissingWords::among_numbers(std::string_view cell) {
+bool MissingWords::among_numbers(std::string_view cell) const {
   constexpr std::array words = {"-", "--", ".", "none", "nil", "inf", "-inf", "+inf", "infinity", "-infinity"};
   if (operator()(cell) || says_unknown(trimmed(cell))) return true;
   return std::ranges::find(words, lower_case(trimmed(cell))) != words.end();
@@ -176,7 +171,7 @@ LabelledTable read_table(const std::string& file, const TableReading& options, b
   CsvReader reader = open_csv(file);
   const std::size_t label = reader.column(options.label);
   LabelledTable table{.file = reader.file(), .label = options.label};
-  MissingWords missing(options.missing);
+  const MissingWords missing(options.missing);
   auto columns = columns_of(reader, options, table);
   Vocabulary classes;
   Progress progress("reading", reader.bytes_total().value_or(0), quiet || !reader.bytes_total());
@@ -203,8 +198,6 @@ LabelledTable read_table(const std::string& file, const TableReading& options, b
   if (table.columns.empty())
     throw InputError("{}: found the same value in all {} rows of each column beside {}, expected a column that differs",
                      table.file, table.size(), in_quotes(table.label));
-  if (const auto unmet = missing.unmet(); !unmet.empty())
-    table.notes.push_back(fmt::format("no cell is {}, as --missing says; capitals count", fmt::join(unmet, " or ")));
   return table;
 }
 

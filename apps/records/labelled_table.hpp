@@ -34,21 +34,13 @@ class MissingWords {
   explicit MissingWords(const std::vector<std::string>& more = {});
 
   /// An empty cell, "?", and the words that were added, numbers also as others write them.
-  bool operator()(std::string_view cell);
+  bool operator()(std::string_view cell) const;
 
   /// Besides, in a column of numbers: "-", "NA", "N/A", "nan", "null", "none", "inf" and the like, in any case.
-  bool among_numbers(std::string_view cell);
-
-  /// The words that were added, if no cell was one of them.
-  std::vector<std::string> unmet() const;
+  bool among_numbers(std::string_view cell) const;
 
  private:
-  struct Word {
-    std::string text;
-    std::optional<double> number;
-    bool met = false;
-  };
-  std::vector<Word> more_;
+  std::vector<std::pair<std::string, std::optional<double>>> more_;  // and the number that a word is
 };
 
 /// Whether a word says that a value is not known, as NA does.

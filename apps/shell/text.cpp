@@ -5,8 +5,6 @@
 #include <clocale>
 #include <cmath>
 #include <cwchar>
-#include <map>
-#include <memory>
 
 #include <utf8proc.h>
 
@@ -118,34 +116,6 @@ std::string lower_case(std::string_view text) {
   for (char& letter : result)
     if (letter >= 'A' && letter <= 'Z') letter = static_cast<char>(letter - 'A' + 'a');
   return result;
-}
-
-/// Letters of any script in one case and Unicode form (NFKC), without what is not seen; of what is no UTF-8, lower
-/// case.
-static std::string folded_case(std::string_view text) {
-  constexpr auto form = static_cast<utf8proc_option_t>(UTF8PROC_STABLE | UTF8PROC_COMPOSE | UTF8PROC_COMPAT |
-                                                       UTF8PROC_CASEFOLD | UTF8PROC_IGNORE);
-  utf8proc_uint8_t* found = nullptr;
-  const utf8proc_ssize_t size = utf8proc_map(reinterpret_cast<const utf8proc_uint8_t*>(text.data()),
-                                             static_cast<utf8proc_ssize_t>(text.size()), &found, form);
-  const std::unique_ptr<utf8proc_uint8_t, decltype(&std::free)> owner(found, &std::free);
-  return size < 0 ? lower_case(text) : std::string(found, found + size);
-}
-
-std::string alike(const std::vector<std::string_view>& words) {
-  const auto folded = [](std::string_view word) {
-    auto parts = words_of(folded_case(word));
-    std::erase(parts, "");
-    const auto key = fmt::format("{}", fmt::join(parts, " "));
-    constexpr std::size_t digits_of_a_double = 15;
-    const auto number = key.size() > digits_of_a_double ? std::nullopt : parse_number(key);
-    return number ? shortest(*number + 0.0) : key;
-  };
-  std::map<std::string, std::string_view> by_key;
-  for (const std::string_view word : words)
-    if (const auto [other, is_new] = by_key.emplace(folded(word), word); !is_new)
-      return fmt::format("{} and {}", in_quotes(other->second), in_quotes(word));
-  return "";
 }
 
 }  // namespace sigmax::apps

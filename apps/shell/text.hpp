@@ -52,10 +52,6 @@ std::string wrapped(std::string_view text, std::size_t width = terminal_width);
 /// With the letters A to Z as a to z.
 std::string lower_case(std::string_view text);
 
-/// "'red' and 'Red'", the first two of the words that differ in nothing but case, blanks, or the writing of a number;
-/// or nothing.
-std::string alike(const std::vector<std::string_view>& words);
-
 /// What a function or a member tells of each of several things.
 template <class Range, class Of>
 auto each(const Range& range, const Of& of) {

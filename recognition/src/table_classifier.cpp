@@ -63,6 +63,11 @@ AnyClassifier made(const TableModel& model, TableInference inference) {
 
 }  // namespace
 
+std::vector<double> degrees_of(const AnyBelief& belief) {
+  const auto degrees = [](const auto& one) { return std::vector<double>(one.distribution().values()); };
+  return std::visit(degrees, belief);
+}
+
 std::string_view name_of(TableInference inference) {
   constexpr std::array names = {"sigma", "max, ratio scale", "max, Dubois-Prade", "sigma-max, ratio scale",
                                 "sigma-max, Dubois-Prade"};

@@ -69,7 +69,7 @@ class Esm : public testing::TestWithParam<std::string> {};
 
 TEST_P(Esm, EveryClassifierEqualsPlainLoopsOnTheReadingsOfEveryRun) {
   const TemporaryDirectory directory;
-  program::succeeded(esm(directory.path(), {"--usage", GetParam(), "--runs", "60", "--reports", "15"}));
+  program::succeeded(esm(directory.path(), words("--runs 60 --reports 15" + GetParam())));
   std::map<std::string, Numbers> accuracy;
   const auto runs = rows_of(directory.path() / "runs.csv");
   ASSERT_EQ(runs.size(), 60U);
@@ -100,8 +100,8 @@ TEST_P(Esm, EveryClassifierEqualsPlainLoopsOnTheReadingsOfEveryRun) {
   EXPECT_EQ(compared, 6U * 15U);
 }
 
-INSTANTIATE_TEST_SUITE_P(RecognitionDemo, Esm, testing::Values("uniform", "dirichlet"),
-                         [](const auto& test) { return std::string(test.param); });
+INSTANTIATE_TEST_SUITE_P(RecognitionDemo, Esm, testing::Values("", " --alpha 0.5"),
+                         [](const auto& test) { return test.param.empty() ? "Uniform" : "Dirichlet"; });
 
 TEST(RecognitionDemoEsm, TheSeedChoosesTheRuns) {
   const TemporaryDirectory directory;
@@ -123,9 +123,8 @@ TEST(RecognitionDemoEsm, TablesFitATerminalUnlessTheyMayBeWide) {
     for (const std::string& line : lines_of(text, any_width)) width = std::max(width, display_width(line));
     return width;
   };
-  for (const std::vector<std::string>& arguments :
-       {std::vector<std::string>{"esm", "--usage", "dirichlet", "--runs", "5"},
-        {"esm", "--regime", "usage", "--runs", "2", "--reports", "3"}}) {
+  for (const std::vector<std::string>& arguments : {std::vector<std::string>{"esm", "--alpha", "0.5", "--runs", "5"},
+                                                    {"esm", "--regime", "usage", "--runs", "2", "--reports", "3"}}) {
     EXPECT_LE(widest(recognition_demo(arguments).output), 80U) << arguments.front();
     auto wide = arguments;
     wide.push_back("--wide");

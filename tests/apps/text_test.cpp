@@ -61,15 +61,6 @@ TEST(Wrapped, BreaksAtBlanksAndKeepsIndents) {
   EXPECT_EQ(wrapped("a\x1B[2Jb\nc", any_width), "a\\x1B[2Jb\nc\n");
 }
 
-TEST(Alike, IsWhatDiffersInCaseBlanksOrTheWritingOfANumber) {
-  EXPECT_EQ(alike({"red", "green", "Red"}), "'red' and 'Red'");
-  EXPECT_EQ(alike({"1", "2", "1.0"}), "'1' and '1.0'");
-  EXPECT_EQ(alike({"0", "-0"}), "'0' and '-0'");
-  EXPECT_EQ(alike({"oak tree", "oak  tree"}), "'oak tree' and 'oak  tree'");
-  EXPECT_EQ(alike({"oak", "oak\u00a0"}), "'oak' and 'oak\u00a0'");
-  EXPECT_EQ(alike({"red", "reed", "1", "10", "", "oaktree", "oak tree", "é", "à"}), "");
-}
-
 TEST(DisplayWidth, CountsColumnsNotBytes) {
   EXPECT_EQ(display_width(""), 0U);
   EXPECT_EQ(display_width("abc"), 3U);

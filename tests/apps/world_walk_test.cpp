@@ -15,8 +15,8 @@ void run_coins(const DrawOptions& options) {
   const RandomVariable coin{"coin", {"fair", "bent"}}, side{"side", {"heads", "tails"}};
   const Relation<Random, Random> probable{side, coin, {{0.5, 0.5}, {0.2, 0.8}}};
   const auto possible = with_fuzzy_condition(to_possibility(probable, RatioScale{}));
-  const std::vector<Contestant> contestants = {{"sigma", SigmaClassifier{uninformative(coin), probable}},
-                                               {"max", MaxClassifier{uninformative(as_fuzzy(coin)), possible}}};
+  const std::vector<Contestant> contestants = {{"sigma", Classifier{uninformative(coin), probable}},
+                                               {"max", Classifier{uninformative(as_fuzzy(coin)), possible}}};
   const auto draw_run = [&](std::size_t run) {
     RandomStream random(options.seed, run);
     const std::size_t truth = draw_index(random, coin.size());
@@ -27,8 +27,7 @@ void run_coins(const DrawOptions& options) {
   World world{"Which coin is it?", {{contestants, draw_run}}};
   world.tell = [&](const std::vector<Scores>& scores, Result& result) {
     result.say("Ten throws of one of two coins");
-    result.page.panels = {accuracy_chart(scores.front(), "throws")};
-    add_scores(result, scores.front(), "throws");
+    add_scores(result, scores.front());
   };
   ResultFiles files(options.output);
   run_world(world, options, files);
@@ -55,7 +54,7 @@ double right_by_bayes() {
 TEST(WorldWalk, TellsWhichCoinItIs) {
   const Written by_one = written_by(1);
   EXPECT_TRUE(by_one.printed.starts_with("Ten throws of one of two coins\n\n")) << by_one.printed;
-  EXPECT_NE(by_one.printed.find("\nafter throws:     1     2     5    10"), std::string::npos) << by_one.printed;
+  EXPECT_NE(by_one.printed.find("\nreports:           1     2     5    10"), std::string::npos) << by_one.printed;
   std::istringstream curves(by_one.curves);
   CsvReader reader(curves, "curves.csv");
   std::vector<double> last;

@@ -57,7 +57,30 @@ TEST(StratifiedFolds, RefuseAnImpossibleNumber) {
   std::mt19937_64 generator(1);
   const Labels labels{0, 1, 0};
   for (const std::size_t folds : {0U, 1U, 4U})
-    EXPECT_INVALID(("folds", "3", std::to_string(folds)), stratified_folds(labels, folds, generator));
+    EXPECT_INVALID(("3 rows", std::to_string(folds), "folds"), stratified_folds(labels, folds, generator));
+}
+
+PROPERTY(GroupedFolds, KeepGroupsWholeAndPartEveryLabel) {
+  const auto n = *rc::gen::inRange<std::size_t>(6, 20);
+  std::mt19937_64 generator(n);
+  Labels labels, groups;
+  for (std::size_t group = 0; group < n; ++group)
+    for (std::size_t row = 0; row <= generator() % 4; ++row) labels.push_back(group % 2), groups.push_back(group);
+  const auto fold_of = grouped_folds(labels, groups, 3, generator);
+  std::map<std::size_t, std::set<std::size_t>> of_group, of_label;
+  for (std::size_t row = 0; row < labels.size(); ++row) {
+    RC_ASSERT(fold_of[row] < 3U);
+    of_group[groups[row]].insert(fold_of[row]);
+    of_label[labels[row]].insert(fold_of[row]);
+  }
+  for (const auto& [group, folds] : of_group) RC_ASSERT(folds.size() == 1U);
+  for (const auto& [label, folds] : of_label) RC_ASSERT(folds.size() > 1U);
+}
+
+TEST(GroupedFolds, RefuseWhatCannotBe) {
+  std::mt19937_64 generator(1);
+  EXPECT_INVALID(("2 groups", "3 folds"), grouped_folds(Labels{0, 0, 1}, Labels{0, 1, 1}, 3, generator));
+  EXPECT_INVALID(("one fold"), grouped_folds(Labels{0, 0, 1, 1}, Labels{0, 0, 1, 2}, 2, generator));
 }
 
 }  // namespace folds_test

@@ -19,6 +19,9 @@ using TableCell = std::variant<double, std::string>;
 using AnyClassifier = std::variant<Classifier<Random, Random>, Classifier<Fuzzy, Fuzzy>>;
 using AnyBelief = std::variant<Belief<Random>, Belief<Fuzzy>>;
 
+/// Probability or possibility of each pattern.
+std::vector<double> degrees_of(const AnyBelief& belief);
+
 /// By which of the inferences a table classifies; possibilities are made of the counts by a transform. Sigma-max
 /// inference is max inference but where readings may be wrong.
 enum class TableInference { sigma, max_by_ratio, max_by_dubois_prade, sigma_max_by_ratio, sigma_max_by_dubois_prade };
