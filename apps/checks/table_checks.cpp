@@ -196,7 +196,8 @@ std::string copies(const LabelledTable& table) {
 
 }  // namespace
 
-std::vector<std::string> findings_of(const LabelledTable& table) {
+void print_findings(const LabelledTable& table) {
+  for (const auto& note : table.notes) complain(fmt::format("recognition_demo: note: {}: {}", table.file, note));
   std::vector<std::string> found = of_classes(table);
   found.push_back(copies(table));
   for (const TableColumn& column : table.columns) {
@@ -206,14 +207,8 @@ std::vector<std::string> findings_of(const LabelledTable& table) {
     found.push_back(tells_class(table, column));
     found.push_back(sentinels(table, column));
   }
-  std::erase(found, "");
-  return found;
-}
-
-void print_findings(const LabelledTable& table) {
-  for (const auto& note : table.notes) complain(fmt::format("recognition_demo: note: {}: {}", table.file, note));
-  for (const auto& finding : findings_of(table))
-    complain(fmt::format("recognition_demo: warning: {}: {}", table.file, finding));
+  for (const auto& finding : found)
+    if (!finding.empty()) complain(fmt::format("recognition_demo: warning: {}: {}", table.file, finding));
 }
 
 }  // namespace sigmax::apps

@@ -61,7 +61,7 @@ double credit(const Classifier<Kind, Kind>& classifier, const std::vector<std::v
   Belief belief{classifier.prior()};
   for (const auto& report : reports)
     classifier.observe(belief, Likelihood{classifier.features().front().feature(), report});
-  return examples::credit(belief, truth);
+  return sigmax::credit(belief, truth);
 }
 
 int main() {

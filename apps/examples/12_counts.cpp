@@ -19,13 +19,6 @@ const std::vector<std::vector<std::vector<double>>> seen{{{55, 37, 8}, {22, 48, 
                                                          {{24, 55, 21}, {21, 58, 21}, {27, 46, 27}},
                                                          {{12, 76, 12}, {8, 84, 8}, {7, 86, 7}}};
 
-std::size_t draw(apps::RandomStream& random, std::span<const double> probabilities) {
-  double u = random.uniform();
-  std::size_t i = 0;
-  while (i + 1 < probabilities.size() && u >= probabilities[i]) u -= probabilities[i++];
-  return i;
-}
-
 int main() {
   Counts counts{klass, features};
   for (std::size_t f = 0; f < features.size(); ++f)
@@ -47,11 +40,11 @@ int main() {
       const std::size_t truth = run % klass.size();
       std::vector<std::vector<std::size_t>> rows(static_cast<std::size_t>(reports));
       for (auto& row : rows)
-        for (const auto& feature : probable) row.push_back(draw(random, feature.row(truth)));
+        for (const auto& feature : probable) row.push_back(random.draw(feature.row(truth)));
       const auto right = [&](const auto& classifier) {
         Belief belief{classifier.prior()};
         classifier.observe_all(belief, rows);
-        return examples::credit(belief, truth);
+        return credit(belief, truth);
       };
       contest.add({right(sigma), right(ratio), right(dubois_prade), right(sandri)});
     }

@@ -8,13 +8,6 @@
 
 namespace examples {
 
-/// 1 if the truth alone is the best pattern, 1/n if it is one of n that tie, else 0.
-template <sigmax::Uncertainty Kind>
-double credit(const sigmax::Belief<Kind>& belief, std::size_t truth) {
-  const sigmax::Decision best = sigmax::decide(belief);
-  return sigmax::ties(belief.log(truth), belief.log(best.pattern)) ? 1.0 / static_cast<double>(best.tied) : 0.0;
-}
-
 /// Shares of right decisions on the same reports, and how many points more than the first, ± 95 % by paired runs.
 class Contest {
  public:

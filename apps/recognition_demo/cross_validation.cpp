@@ -1,7 +1,5 @@
 #include "recognition_demo/cross_validation.hpp"
 
-#include <set>
-
 #include <sigmax/recognition/folds.hpp>
 
 #include "recognition_demo/model_file.hpp"
@@ -52,30 +50,9 @@ void add(std::vector<Outcome>& outcomes, std::vector<Outcome> fold) {
 
 }  // namespace
 
-Groups groups_of(const LabelledTable& data, const std::string& column) {
-  CsvReader reader = open_csv(data.file);
-  const std::size_t place = reader.column(column);
-  Vocabulary names;
-  Groups groups;
-  for (CsvRow row; reader.next(row);) {
-    const std::string_view name = trimmed(row[place]);
-    if (name.empty() || says_unknown(name)) throw row.error(place, "the name of the row's group", "fill the cell");
-    groups.push_back(names.number(name));
-  }
-  std::vector<std::set<std::size_t>> of(data.classes.size());
-  for (std::size_t row = 0; row < data.size(); ++row) of[data.labels[row]].insert(groups[row]);
-  for (std::size_t c = 0; c < of.size(); ++c)
-    if (of[c].size() < 2)
-      throw InputError(
-          "{}: the rows of class {} are of one group: expected two at least, one to learn from, one to classify",
-          data.file, in_quotes(data.classes[c]));
-  return groups;
-}
-
-Folds divided(const LabelledTable& data, const std::optional<Groups>& groups, std::size_t folds,
-              std::mt19937_64& generator) try {
-  return groups ? grouped_folds(data.labels, *groups, folds, generator)
-                : stratified_folds(data.labels, folds, generator);
+Folds divided(const LabelledTable& data, std::size_t folds, std::mt19937_64& generator) try {
+  return data.groups.empty() ? stratified_folds(data.labels, folds, generator)
+                             : grouped_folds(data.labels, data.groups, folds, generator);
 } catch (const std::invalid_argument& error) {
   throw InputError("{}: {}; give fewer --folds", data.file, error.what());
 }
@@ -87,15 +64,14 @@ Interval Results::minus_first(std::size_t i) const {
     const TimesRight& times = times_right[row];
     const double difference = of_a_folding(static_cast<double>(times[i]) - static_cast<double>(times[0]));
     by_row.add(difference);
-    if (!groups) continue;
-    const std::size_t group = (*groups)[row];
-    if (group >= sums.size()) sums.resize(group + 1);
-    sums[group].first += difference;
-    sums[group].second += 1.0;
+    if (groups.empty()) continue;
+    sums.resize(std::max(sums.size(), groups[row] + 1));
+    sums[groups[row]].first += difference;
+    sums[groups[row]].second += 1.0;
   }
   const double groups_a_row = static_cast<double>(sums.size()) / static_cast<double>(times_right.size());
   for (const auto& [sum, rows] : sums) by_group.add(by_row.mean() + groups_a_row * (sum - rows * by_row.mean()));
-  return groups ? by_group.interval() : by_row.interval();
+  return groups.empty() ? by_row.interval() : by_group.interval();
 }
 
 std::vector<TableClassifier> taught(const LabelledTable& data, const Folds& folds, std::size_t fold,
@@ -104,14 +80,13 @@ std::vector<TableClassifier> taught(const LabelledTable& data, const Folds& fold
                                      [&](std::size_t row) { return folds[row] != fold; }));
 }
 
-Results cross_validated(const LabelledTable& data, const std::optional<Groups>& groups,
-                        const EvaluateOptions& options) {
-  Results results{{}, std::vector<Results::TimesRight>(data.size()), groups, options.foldings};
+Results cross_validated(const LabelledTable& data, const EvaluateOptions& options) {
+  Results results{{}, std::vector<Results::TimesRight>(data.size()), data.groups, options.foldings};
   const int threads = threads_or_all(options.threads);
   Progress progress("folds", options.folds * options.foldings, options.output.quiet);
   std::mt19937_64 generator(options.seed);
   for (std::size_t folding = 0; folding < options.foldings; ++folding) {
-    const Folds folds = divided(data, groups, options.folds, generator);
+    const Folds folds = divided(data, options.folds, generator);
     for_each_run(
         options.folds, threads,
         [&](std::size_t fold) { return classify_fold(data, folds, fold, options.learning, results.times_right); },

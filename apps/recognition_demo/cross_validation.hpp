@@ -19,23 +19,16 @@ struct EvaluateOptions {
   std::size_t folds = 10;
   std::size_t foldings = 20;  ///< divisions into folds
   std::uint64_t seed = 1;     ///< of the folds
-  std::string groups;         ///< a column whose values stay whole in a fold; or empty
   int threads = 0;            ///< 0: as many as the machine has
   OutputOptions output;
 };
 
-/// The fold of each row, and the group.
+/// The fold of each row.
 using Folds = std::vector<std::size_t>;
-using Groups = std::vector<std::size_t>;
-
-/// A number of each row, the same where a column of the file that the data is of holds the same word. Throws InputError
-/// for an empty cell, a column that there is not, and a class whose rows are of one group.
-Groups groups_of(const LabelledTable& data, const std::string& column);
 
 /// Divides the rows into folds of equal shares of every class, or of whole groups. Throws InputError where that cannot
 /// be.
-Folds divided(const LabelledTable& data, const std::optional<Groups>& groups, std::size_t folds,
-              std::mt19937_64& generator);
+Folds divided(const LabelledTable& data, std::size_t folds, std::mt19937_64& generator);
 
 /// The scores of one classifier.
 struct Outcome {
@@ -59,7 +52,7 @@ struct Results {
 
   std::vector<Outcome> outcomes;
   std::vector<TimesRight> times_right;  ///< by row
-  std::optional<Groups> groups;         ///< that rows are of, if --groups tells
+  std::vector<std::size_t> groups;      ///< that rows are of, if any
   std::size_t foldings;
 
   /// Of a sum over the foldings the mean.
@@ -76,6 +69,6 @@ std::vector<TableClassifier> taught(const LabelledTable& data, const Folds& fold
                                     const TableOptions& options);
 
 /// Classifies every row by what the rows of other folds teach, in each folding.
-Results cross_validated(const LabelledTable& data, const std::optional<Groups>& groups, const EvaluateOptions& options);
+Results cross_validated(const LabelledTable& data, const EvaluateOptions& options);
 
 }  // namespace sigmax::apps

@@ -90,12 +90,12 @@ std::vector<double> draw_usage(const EsmWorld& world, std::size_t platform, cons
   if (usage.kind == Usage::Kind::dirichlet)
     return spread_over_emitters(world, platform, draw_dirichlet(random, size, usage.parameter));
   const auto grid = usage_grid(size, usage);
-  return spread_over_emitters(world, platform, grid[grid.size() == 1 ? 0 : draw_index(random, grid.size())]);
+  return spread_over_emitters(world, platform, grid[grid.size() == 1 ? 0 : random.index(grid.size())]);
 }
 
 Drawn draw_run(const EsmWorld& world, const EsmTruth& truth, std::size_t reports, RandomStream& random) {
   const auto sensor = world.sensor(truth.hit);
-  const std::size_t platform = draw_index(random, world.platform.size());
+  const std::size_t platform = random.index(world.platform.size());
   std::vector<double> usage = draw_usage(world, platform, truth.usage, random);
   if (truth.unlisted > 0.0) {
     const auto& carried = world.carried[platform];
@@ -106,7 +106,7 @@ Drawn draw_run(const EsmWorld& world, const EsmTruth& truth, std::size_t reports
   // A sensor that goes astray listens to another platform for the whole run.
   std::vector<double> heard_astray;
   if (truth.astray > 0.0 && random.uniform() < truth.astray) {
-    const std::size_t step = 1 + draw_index(random, world.platform.size() - 1);
+    const std::size_t step = 1 + random.index(world.platform.size() - 1);
     heard_astray = draw_usage(world, (platform + step) % world.platform.size(), truth.usage, random);
   }
   Drawn run{platform, {}};
@@ -114,8 +114,8 @@ Drawn draw_run(const EsmWorld& world, const EsmTruth& truth, std::size_t reports
     Readings report;
     for (std::size_t s = 0; s < truth.sensors; ++s) {
       const bool astray = s > 0 && !heard_astray.empty();
-      const std::size_t emitter = draw(random, astray ? heard_astray : usage);
-      report.push_back(draw(random, sensor.row(emitter)));
+      const std::size_t emitter = random.draw(astray ? heard_astray : usage);
+      report.push_back(random.draw(sensor.row(emitter)));
     }
     run.reports.push_back(std::move(report));
   }

@@ -99,7 +99,10 @@ void add_esm(CLI::App& program, const std::string& command) {
                             .one_of(regimes)
                             .text("NAME");
   app.option("--reports", options->reports, "Reports in a run").in(1, 100000);
-  add_draws(app, options->draws, command, 20000);
+  app.option("--runs", options->draws.runs, "Simulated runs").in(2, 100000000);
+  add_seed(app, options->draws.seed);
+  add_threads(app, options->draws.threads);
+  add_results(app, options->draws.output, command);
   app.run([options, alpha, regime] {
     if (regime.given() && alpha.given()) throw UsageError("--regime has usages of its own: leave out --alpha");
     if (regime.given())

@@ -88,13 +88,12 @@ ResultTable rows_of_confusion(const LabelledTable& data, const Results& results)
 }
 
 /// predictions.csv: belief and decision for every row and classifier, fold after fold of the first folding.
-void write_predictions(const LabelledTable& data, const Results& results, const EvaluateOptions& options,
-                       ResultFiles& files) {
+void write_predictions(const LabelledTable& data, const EvaluateOptions& options, ResultFiles& files) {
   std::vector<std::string> keys = {"line", "fold", "truth", "classifier", "decision"};
   keys.insert(keys.end(), data.classes.begin(), data.classes.end());
   RowFile file(files, "predictions.csv", keys);
   std::mt19937_64 generator(options.seed);
-  const Folds folds = divided(data, results.groups, options.folds, generator);
+  const Folds folds = divided(data, options.folds, generator);
   for (std::size_t fold = 0; fold < options.folds; ++fold)
     for (const TableClassifier& by : taught(data, folds, fold, options.learning))
       for (std::size_t row = 0; row < data.size(); ++row) {
@@ -107,14 +106,22 @@ void write_predictions(const LabelledTable& data, const Results& results, const 
       }
 }
 
-/// Throws unless every class can be learned whichever fold is left out.
+/// Throws unless every class can be learned whichever fold is left out: it needs two rows, of two groups.
 void refuse_rare_classes(const LabelledTable& data) {
-  for (std::size_t row = 0; row < data.size(); ++row)
-    if (data.rows_of_class[data.labels[row]] < 2)
-      throw InputError(
-          "{}:{}: column {}: found the only row of {}, expected at least two of every class: one to learn from, one to "
-          "classify; add rows, or remove those of the class",
-          data.file, data.lines[row], in_quotes(data.label), in_quotes(data.classes[data.labels[row]]));
+  std::vector<std::optional<std::size_t>> first(data.classes.size());
+  std::vector<bool> again(data.classes.size());
+  for (std::size_t row = 0; row < data.size(); ++row) {
+    auto& its = first[data.labels[row]];
+    if (its && (data.groups.empty() || data.groups[*its] != data.groups[row])) again[data.labels[row]] = true;
+    its = its.value_or(row);
+  }
+  const auto rare = static_cast<std::size_t>(std::ranges::find(again, false) - again.begin());
+  if (rare < again.size())
+    throw InputError(
+        "{}:{}: column {}: found {} in a single {}, expected at least two of every class: one to learn from, one to "
+        "classify; add rows, or remove those of the class",
+        data.file, data.lines[*first[rare]], in_quotes(data.label), in_quotes(data.classes[rare]),
+        data.groups.empty() ? "row" : "group");
 }
 
 /// Which classifier to use: sigma, unless another one is right more often beyond its interval; none of them where the
@@ -180,14 +187,14 @@ void run_evaluate(const EvaluateOptions& options) {
   const LabelledTable data = read_table(options.file, options.data, options.output.quiet);
   print_findings(data);
   refuse_rare_classes(data);
-  const auto groups = options.groups.empty() ? std::nullopt : std::optional(groups_of(data, options.groups));
-  const Results results = cross_validated(data, groups, options);
+  const std::string& groups = options.data.groups;
+  const Results results = cross_validated(data, options);
   Result result = result_of_contest("Cross-validation of " + data.file, options.output);
   result.facts("file", data.file, "rows", data.size(), "classes", data.classes, "folds", options.folds, "foldings",
                options.foldings, "seed", options.seed, "smoothing", options.learning.smoothing, "misread",
                options.learning.misread, "bins", options.learning.bins);
   const std::string how = fmt::format("{} folds of {}, {}seed {}; {}", options.folds,
-                                      groups ? "whole values of " + options.groups : "equal shares of every class",
+                                      groups.empty() ? "equal shares of every class" : "whole values of " + groups,
                                       options.foldings == 1 ? "" : fmt::format("in {} foldings, ", options.foldings),
                                       options.seed, described(options.learning));
   const std::string note = fmt::format(
@@ -195,7 +202,7 @@ void run_evaluate(const EvaluateOptions& options) {
       "do "
       "not count that other training rows make other classifiers. The shares are those of the classes. Necessity: 1 − "
       "the possibility of the best other class. A truth is covered if its possibility is at least ½.",
-      groups ? "values of " + options.groups : "rows");
+      groups.empty() ? "rows" : "values of " + groups);
   const std::string use = advice(data, results, options);
   result.say("{}: {}\n{}", data.file, described(data), how);
   result.add(outcomes_table(data, results), {.summary = {"classifiers"}, .title = "Classifiers", .note = note});
@@ -220,10 +227,10 @@ void run_evaluate(const EvaluateOptions& options) {
     charts.emplace_back(reliability_chart(outcome.name, fuzzy, bins));
   }
   std::ranges::move(charts, std::back_inserter(result.page.panels));
-  if (groups) result.fact({"groups"}, options.groups);
+  if (!groups.empty()) result.fact({"groups"}, groups);
   result.page.verdict = {fmt::format("{}. {}.", described(data), how), use};
   result.add(rows_of_confusion(data, results), {.printed = false, .csv = "confusion.csv"});
-  if (files.wanted()) write_predictions(data, results, options, files);
+  if (files.wanted()) write_predictions(data, options, files);
   if (files.report_wanted())
     for (Panel& map :
          relation_maps(TableModel::fit(data.columns, {data.label, data.classes}, data.labels, options.learning)))
@@ -239,7 +246,7 @@ void add_evaluate(CLI::App& program, const std::string& command) {
   add_learning(app, options->file, options->data, options->learning);
   app.option("--folds", options->folds, "Parts of the data, each classified by what the others teach").in(2, 1000000);
   app.option("--foldings", options->foldings, "Divisions into folds; one alone may be a lucky one").in(1, 100000);
-  app.option("--groups", options->groups,
+  app.option("--groups", options->data.groups,
              "A column that names what rows are of, as a patient or a session: folds keep them together, and it is no "
              "feature")
       .type("COLUMN");
@@ -247,10 +254,8 @@ void add_evaluate(CLI::App& program, const std::string& command) {
   add_threads(app, options->threads);
   add_results(app, options->output, command);
   app.run([options] {
-    if (!options->groups.empty() && options->file == "-")
-      throw UsageError("--groups reads the data twice: it takes no standard input");
-    if (options->groups == options->data.label) throw UsageError("--groups: the label cannot be what rows are of, too");
-    if (!options->groups.empty()) options->data.ignore.push_back(options->groups);
+    if (options->data.groups == options->data.label)
+      throw UsageError("--groups: the label cannot be what rows are of, too");
     run_evaluate(*options);
   });
 }

@@ -52,7 +52,7 @@ std::vector<Contestant> learned(const EsmWorld& world, const Setting& setting, R
   Counts counts{world.platform, {world.emitter}};
   for (std::size_t c = 0; c < world.platform.size(); ++c) {
     const auto earlier = draw_usage(world, c, setting.truth.usage, random);
-    for (std::size_t k = 0; k < setting.seen; ++k) counts.observe_value(c, 0, draw(random, earlier));
+    for (std::size_t k = 0; k < setting.seen; ++k) counts.observe_value(c, 0, random.draw(earlier));
   }
   const auto sensor = world.sensor(setting.hit);
   auto all = equally_informed(learned_relation(counts, 0, 1.0), learned_relations(counts, 1.0, RatioScale{}).front(),

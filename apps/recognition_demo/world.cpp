@@ -11,9 +11,7 @@ namespace {
 Trace follow(const Contestant& contestant, const Drawn& drawn) {
   Trace trace;
   const auto see = [&](const auto& belief) {
-    const Decision best = decide(belief);
-    const bool right = ties(belief.log(drawn.truth), belief.log(best.pattern));
-    trace.credit.push_back(right ? 1.0 / static_cast<double>(best.tied) : 0.0);
+    trace.credit.push_back(credit(belief, drawn.truth));
     if (trace.credit.size() == drawn.reports.size()) trace.belief = degrees_of(belief);
   };
   const auto observe = [&](const auto& classifier) {
@@ -85,27 +83,6 @@ std::vector<std::size_t> shown_reports(std::size_t reports) {
 }
 
 }  // namespace
-
-std::size_t draw_index(RandomStream& random, std::size_t size) {
-  return std::min(size - 1, static_cast<std::size_t>(random.uniform() * static_cast<double>(size)));
-}
-
-std::size_t draw(RandomStream& random, std::span<const double> probabilities) {
-  const double u = random.uniform();
-  double sum = 0.0;
-  std::size_t last = 0;
-  for (std::size_t i = 0; i < probabilities.size() && sum <= u; ++i)
-    if (probabilities[i] > 0.0) sum += probabilities[last = i];
-  return last;
-}
-
-void add_draws(Subcommand app, DrawOptions& options, const std::string& command, std::size_t runs) {
-  options.runs = runs;
-  app.option("--runs", options.runs, "Simulated runs").in(2, 100000000);
-  add_seed(app, options.seed);
-  add_threads(app, options.threads);
-  add_results(app, options.output, command);
-}
 
 void run_world(const World& world, const DrawOptions& options, ResultFiles& files) {
   auto scores = each(world.conditions, [](const Condition& condition) {

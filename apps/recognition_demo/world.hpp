@@ -5,20 +5,13 @@
 
 namespace sigmax::apps {
 
-/// One of `size` outcomes, all equally probable.
-std::size_t draw_index(RandomStream& random, std::size_t size);
-
-/// An outcome with these probabilities; they may miss a sum of one by rounding.
-std::size_t draw(RandomStream& random, std::span<const double> probabilities);
-
 /// The options of worlds, which are drawn at random.
 struct DrawOptions {
-  std::size_t runs;
+  std::size_t runs = 20000;
   std::uint64_t seed = 1;
   int threads = 0;  ///< 0: as many as the machine has
   OutputOptions output;
 };
-void add_draws(Subcommand app, DrawOptions& options, const std::string& command, std::size_t runs);
 
 /// One of the classifiers that are compared on the same reports.
 struct Contestant {

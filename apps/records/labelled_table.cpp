@@ -116,7 +116,7 @@ std::vector<ColumnReader> columns_of(const CsvReader& reader, const TableReading
   for (std::size_t i = 0; i < reader.names().size(); ++i)
     if (const std::string& name = reader.names()[i]; name.empty())
       table.notes.push_back(fmt::format("column {} has no name and is left out", i + 1));
-    else if (name != options.label && !left_out.contains(i))
+    else if (name != options.label && name != options.groups && !left_out.contains(i))
       columns.emplace_back(i, name, all_categorical || categorical.contains(i), own_value.contains(i));
   if (columns.empty())
     throw InputError("{}: there is no column beside {}: expected one with a feature", table.file,
@@ -173,7 +173,8 @@ LabelledTable read_table(const std::string& file, const TableReading& options, b
   LabelledTable table{.file = reader.file(), .label = options.label};
   const MissingWords missing(options.missing);
   auto columns = columns_of(reader, options, table);
-  Vocabulary classes;
+  Vocabulary classes, groups;
+  const auto group = options.groups.empty() ? std::nullopt : std::optional(reader.column(options.groups));
   Progress progress("reading", reader.bytes_total().value_or(0), quiet || !reader.bytes_total());
   for (CsvRow row; reader.next(row);) {
     progress.advance(reader.bytes_read() - progress.done());
@@ -182,6 +183,10 @@ LabelledTable read_table(const std::string& file, const TableReading& options, b
     if (classes.size() > most_values)
       throw row.error(label, fmt::format("one of at most {} classes", most_values), "choose another --label");
     for (ColumnReader& column : columns) column.take(row, missing);
+    if (!group) continue;
+    const std::string_view name = trimmed(row[*group]);
+    if (missing(name) || says_unknown(name)) throw row.error(*group, "the name of the row's group", "fill the cell");
+    table.groups.push_back(groups.number(name));
   }
   progress.finish();
   if (table.size() == 0) throw InputError("{}: there is no row below the header", table.file);

@@ -13,6 +13,7 @@ struct TableReading {
   std::vector<std::string> ignore;         ///< columns to leave out
   std::vector<std::string> missing;        ///< words that stand for nothing, beside the usual ones
   std::vector<std::string> missing_value;  ///< columns whose missing cells are a value of their own
+  std::string groups;                      ///< a column that names what rows are of, and is no feature; or empty
 };
 
 /// Labelled rows, in memory: the classes, sorted, and of each row its class and its features.
@@ -22,6 +23,7 @@ struct LabelledTable {
   std::vector<std::size_t> rows_of_class{};
   std::vector<std::size_t> labels{};   ///< of each row, an index into the classes
   std::vector<std::uint32_t> lines{};  ///< of the file, on which each row starts
+  std::vector<std::size_t> groups{};   ///< of each row, 0, 1, …; empty where no column names them
   std::vector<TableColumn> columns{};
   std::vector<std::string> notes{};  ///< what was left out, and why
 

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <numbers>
+#include <span>
 
 namespace sigmax::apps {
 
@@ -33,6 +34,12 @@ class RandomStream {
     has_spare_ = true;
     return radius * std::cos(angle);
   }
+
+  /// One of `size` outcomes, all equally probable.
+  std::size_t index(std::size_t size);
+
+  /// An outcome with these probabilities; they may miss a sum of one by rounding.
+  std::size_t draw(std::span<const double> probabilities);
 
  private:
   std::uint64_t next() {

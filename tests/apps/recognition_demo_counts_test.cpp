@@ -4,39 +4,31 @@ namespace recognition_demo_counts_test {
 
 class RecognitionDemoCounts : public InDirectory {};
 
-TEST_F(RecognitionDemoCounts, AreLearnedAsPlainLoopsDo) {
+TEST_F(RecognitionDemoCounts, AreLearnedAsTheyStand) {
   const std::string model = directory.path() / "model.json";
-  const auto ending =
-      recognition_demo_succeeds({"train", directory.write("counts.csv", counts_csv()), "--label", "class", "--counts",
-                                 "--smoothing", "0", "--equal-prior", "--model", model});
-  EXPECT_TRUE(says(ending.output, {"slow, 100 counted", "every class equally plausible before"}));
-  const auto data = directory.write("reports.csv",
-                                    "altitude_layer_ft_agl,airspeed_kt,vertical_rate_ft_per_min,turn_rate_deg_per_s\n"
-                                    "100,90,300,2.2\n1050,99,-10,7\n1100,100,,0\n");
+  const auto counts =
+      directory.write("counts.csv",
+                      "class,feature,lower,upper,count\n"
+                      "slow,airspeed,0,100,30\nslow,airspeed,100,300,10\nslow,turn,-8,2,10\nslow,turn,2,8,40\n"
+                      "fast,airspeed,0,100,10\nfast,airspeed,100,300,90\nfast,turn,-8,2,25\nfast,turn,2,8,75\n");
+  const auto ending = recognition_demo_succeeds(
+      {"train", counts, "--label", "class", "--counts", "--smoothing", "0", "--equal-prior", "--model", model});
+  EXPECT_TRUE(says(ending.output, {"slow, 50 counted", "every class equally plausible before"}));
+  const auto data = directory.write("reports.csv", "airspeed,turn\n99,2.2\n100,\n");
   recognition_demo_succeeds({"classify", model, data, "--quiet", "--out", directory.path() / "out"});
-
-  const std::map<std::string, std::vector<std::size_t>> bins = {{"altitude_layer_ft_agl", {0, 1, 1}},
-                                                                {"airspeed_kt", {0, 0, 1}},
-                                                                {"vertical_rate_ft_per_min", {1, 0}},
-                                                                {"turn_rate_deg_per_s", {1, 1, 0}}};
+  // p(airspeed|class) is 0.75, 0.25 and 0.1, 0.9, p(turn|class) 0.2, 0.8 and 0.25, 0.75; π of two values by either
+  // transform is p/greatest or p itself, and 1.
+  const std::map<std::string, std::array<double, 2>> fast = {
+      {"sigma", {0.1 * 0.75 / (0.75 * 0.8 + 0.1 * 0.75), 0.9 / 1.15}},
+      {"max, ratio scale", {0.1 / 0.9, 1.0}},
+      {"max, Dubois-Prade", {0.1, 1.0}}};
   std::size_t compared = 0;
   for (const auto& row : rows_of(directory.path() / "out" / "predictions.csv")) {
-    const std::string& name = row.at("classifier");
-    const std::size_t report = std::stoul(row.at("line")) - 2;
-    Numbers belief(2, 1.0);
-    for (const auto& [feature, table] : counts) {
-      if (report >= bins.at(feature).size()) continue;  // an empty cell
-      for (std::size_t c = 0; c < 2; ++c) {
-        const Numbers p = divided(table[c], sum(table[c]));
-        const Numbers numbers = name == "sigma" ? p : name == "max, ratio scale" ? by_ratio(p) : by_dubois_prade(p);
-        belief[c] *= numbers[bins.at(feature)[report]];
-      }
-    }
-    belief = divided(belief, name == "sigma" ? sum(belief) : greatest(belief));
-    EXPECT_CLOSE((Numbers{std::stod(row.at("slow")), std::stod(row.at("fast"))}), belief, 1e-9) << name;
+    const double expected = fast.at(row.at("classifier"))[std::stoul(row.at("line")) - 2];
+    EXPECT_CLOSE(std::stod(row.at("fast")), expected, 1e-12) << row.at("classifier");
     ++compared;
   }
-  EXPECT_EQ(compared, 9U);
+  EXPECT_EQ(compared, 6U);
 }
 
 }  // namespace recognition_demo_counts_test

@@ -64,33 +64,6 @@ TEST_F(RecognitionReport, OfEvaluateHasConfusionMatricesAndReliabilityOfTheSumma
   expect_numbers_of_the_summary();
 }
 
-/// The bins again from predictions.csv, in plain loops.
-TEST_F(RecognitionReport, ReliabilityIsThatOfThePredictions) {
-  page_of({"evaluate", fruit, "--label", "fruit", "--foldings", "1"});
-  const auto predictions = rows_of(directory.path() / "predictions.csv");
-  for (const auto& [classifier, bins] : summary_.at("reliability").items()) {
-    std::map<int, Numbers> degrees, truths;
-    for (const auto& row : predictions)
-      if (row.at("classifier") == classifier)
-        for (const auto& name : summary_.at("classes")) {
-          const double degree = std::stod(row.at(name.get<std::string>()));
-          const int bin = std::min(9, static_cast<int>(10.0 * degree));
-          degrees[bin].push_back(degree);
-          truths[bin].push_back(row.at("truth") == name ? 1.0 : 0.0);
-        }
-    ASSERT_EQ(bins.size(), degrees.size()) << classifier;
-    std::size_t i = 0;
-    for (const auto& [bin, values] : degrees) {
-      const double n = static_cast<double>(values.size());
-      EXPECT_EQ(bins[i].at("from").get<double>(), bin / 10.0);
-      EXPECT_EQ(bins[i].at("statements").get<double>(), n);
-      EXPECT_CLOSE(bins[i].at("mean_degree").get<double>(), sum(values) / n, 1e-9);
-      EXPECT_CLOSE(bins[i].at("share_that_is_true").get<double>(), sum(truths[bin]) / n, 1e-12);
-      ++i;
-    }
-  }
-}
-
 /// Names of classes that are no names to a page.
 TEST_F(RecognitionReport, ShowsAClassAsItIsCalled) {
   std::string text = "size,colour,kind\n";

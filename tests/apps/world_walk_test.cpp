@@ -19,9 +19,9 @@ void run_coins(const DrawOptions& options) {
                                                {"max", Classifier{uninformative(as_fuzzy(coin)), possible}}};
   const auto draw_run = [&](std::size_t run) {
     RandomStream random(options.seed, run);
-    const std::size_t truth = draw_index(random, coin.size());
+    const std::size_t truth = random.index(coin.size());
     std::vector<Readings> throws;
-    for (int k = 0; k < 10; ++k) throws.push_back({draw(random, probable.row(truth))});
+    for (int k = 0; k < 10; ++k) throws.push_back({random.draw(probable.row(truth))});
     return Drawn{truth, throws};
   };
   World world{"Which coin is it?", {{contestants, draw_run}}};

@@ -41,7 +41,15 @@ Decision decide(const Belief<Kind>& belief) {
   return {pattern, tied == 1 ? belief[pattern] - greatest_other(belief, pattern) : 0.0, tied};
 }
 
-/// The same, or nothing if the margin is below `least_margin`: the reject option, by necessity or by posterior margin.
+/// How far a belief is right: 1 if the truth alone is the most likely pattern, 1/n if it is one of n that tie, else 0.
+template <Uncertainty Kind>
+double credit(const Belief<Kind>& belief, std::size_t truth) {
+  const Decision best = decide(belief);
+  return ties(belief.log(truth), belief.log(best.pattern)) ? 1.0 / static_cast<double>(best.tied) : 0.0;
+}
+
+/// The decision, or nothing if the margin is below `least_margin`: the reject option, by necessity or by posterior
+/// margin.
 template <Uncertainty Kind>
 std::optional<Decision> decide_or_reject(const Belief<Kind>& belief, double least_margin) {
   const Decision decision = decide(belief);
