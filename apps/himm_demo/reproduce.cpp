@@ -74,49 +74,21 @@ std::string_view word_of(Enumerator one, const std::array<const char*, size>& wo
 constexpr std::array verdict_words = {"holds", "only released", "does not hold", "undecided"};
 constexpr std::array verdict_letters = {"yes", "(yes)", "no", "?"};
 constexpr std::array finding_names = {"inside", "outside", "open"};
-constexpr std::array figure_names = {"RMSE",          "RMSE of z after 81", "cross-time",       "crossing of curves",
-                                     "share of DWPA", "switches",           "switches of a run"};
-constexpr std::array actor_words = {"himm", "himm_5", "imm", "most likely", "measurement", ""};
-
 /// "1/2": scenario and group.
 template <class Of>
 std::string place_of(const Of& of) {
   return fmt::format("{}/{}", of.scenario, of.group);
 }
 
-/// Whether a figure is shown in per cent: a share or a relative difference.
-bool relative(const Measured& measured) {
-  const FigureOf figure = measured.statement->figure;
-  return figure == FigureOf::rmse || figure == FigureOf::onset_rmse || figure == FigureOf::lead;
-}
-
-double scale_of(const Measured& measured) { return relative(measured) ? 100.0 : 1.0; }
-
-Interval shown(const Measured& measured, std::size_t imm) {
-  const Interval& interval = measured.interval[imm];
-  return {scale_of(measured) * interval.mean, scale_of(measured) * interval.half_width};
-}
-
 std::string text_of(const Measured& measured, std::size_t imm) {
-  const auto [mean, half_width] = shown(measured, imm);
-  return fmt::format("{} ± {}{}", number_text(mean, 1, measured.statement->against != Actor::nobody),
-                     number_text(half_width, 1), relative(measured) ? " %" : "");
+  const auto [mean, half_width] = measured.shown(imm);
+  return fmt::format("{} ± {}{}", number_text(mean, 1, !measured.statement->against.empty()),
+                     number_text(half_width, 1), measured.statement->figure->relative ? " %" : "");
 }
 
-/// Of whom a figure is, and when: "himm : imm, during z".
-std::string subject_of(const Measured& measured) {
-  const Statement& statement = *measured.statement;
-  std::string text(word_of(statement.of, actor_words));
-  if (statement.against != Actor::nobody) text.append(" : ").append(word_of(statement.against, actor_words));
-  if (statement.figure != FigureOf::rmse) text.append(", ").append(word_of(statement.figure, figure_names));
-  if (measured.phase) text.append(", ").append(phase_names[*measured.phase]);
-  if (measured.axis) text.append(" ").append(axis_names[*measured.axis]);
-  return text;
-}
-
-/// The same after scenario and group: "1/2 himm : imm, during z".
+/// After scenario and group of whom a figure is, and when: "1/2 himm : imm, during z".
 std::string place_and_subject_of(const Measured& measured) {
-  return place_of(*measured.statement) + " " + subject_of(measured);
+  return place_of(*measured.statement) + " " + measured.subject();
 }
 
 /// Parts of the table of sentences: with a verdict for each preset, HIMM being what the preset takes for it; and with
@@ -180,7 +152,7 @@ ResultTable figures_table(const Judgements& all) {
                           {{.key = "group"}, statement.group},
                           {{.key = "phase"}, measured.phase ? Cell(phase_names[*measured.phase]) : Cell()},
                           {{.key = "axis"}, measured.axis ? Cell(axis_names[*measured.axis]) : Cell()},
-                          {{.key = "figure"}, word_of(statement.figure, figure_names)},
+                          {{.key = "figure"}, statement.figure->words},
                           {{.key = "of"}, filter_of(statement.of, reading, imm == 1)},
                           {{.key = "against"}, filter_of(statement.against, reading, imm == 1)},
                           {{.key = "value", .interval = true}, measured.interval[imm]},
@@ -258,32 +230,29 @@ std::vector<Panel> figures_of(const std::vector<Judged>& sentences, const Condit
     for (const Measured& measured : sentences[s].figures) {
       const Statement& statement = *measured.statement;
       if (place_of(statement) != place_of(condition)) continue;
-      const bool rmse = statement.figure == FigureOf::rmse, alone = statement.against == Actor::nobody;
-      const std::string title = rmse ? fmt::format("RMSE of {} against {}", word_of(statement.of, actor_words),
-                                                   word_of(statement.against, actor_words))
-                                : relative(measured) ? "The z axis after the onset, and who leads"
-                                : alone              ? "Cross-times and switches"
-                                                     : "Differences of cross-times and switches";
+      const bool rmse = statement.figure->by_axis, relative = statement.figure->relative;
+      const double scale = relative ? 100.0 : 1.0;
+      const std::string title = rmse       ? fmt::format("RMSE of {} against {}", statement.of, statement.against)
+                                : relative ? "The z axis after the onset, and who leads"
+                                : statement.against.empty() ? "Cross-times and switches"
+                                                            : "Differences of cross-times and switches";
       auto chart = std::ranges::find(charts, title, &IntervalChart::title);
       if (chart == charts.end()) {
-        charts.push_back(
-            {.title = title,
-             .x_label = relative(measured) ? "relative difference or share, %" : "samples, or switches a run",
-             .series = {{.name = "with the correct IMM"}, {.name = "with the released IMM"}},
-             .reference = alone ? std::nullopt : std::optional(0.0),
-             .wanted_label = "where the sentence wants it",
-             .digits = relative(measured) ? 1 : 2,
-             .note = "The number is the sentence's; the intervals hold together for all its figures."});
+        charts.push_back({.title = title,
+                          .x_label = relative ? "relative difference or share, %" : "samples, or switches a run",
+                          .series = {{.name = "with the correct IMM"}, {.name = "with the released IMM"}},
+                          .reference = statement.against.empty() ? std::nullopt : std::optional(0.0),
+                          .wanted_label = "where the sentence wants it",
+                          .digits = relative ? 1 : 2,
+                          .note = "The number is the sentence's; the intervals hold together for all its figures."});
         chart = charts.end() - 1;
       }
-      chart->rows.push_back(
-          fmt::format("{}. {}", s + 1,
-                      rmse ? fmt::format("{} {}", phase_names[*measured.phase], axis_names[*measured.axis])
-                           : subject_of(measured)));
+      chart->rows.push_back(fmt::format(
+          "{}. {}", s + 1,
+          rmse ? fmt::format("{} {}", phase_names[*measured.phase], axis_names[*measured.axis]) : measured.subject()));
       for (const std::size_t imm : {0U, 1U}) {
-        chart->series[imm].values.push_back(shown(measured, imm));
-        chart->series[imm].wanted.push_back(
-            {scale_of(measured) * statement.region.above, scale_of(measured) * statement.region.below});
+        chart->series[imm].values.push_back(measured.shown(imm));
+        chart->series[imm].wanted.push_back({scale * statement.region.above, scale * statement.region.below});
       }
     }
   return {charts.begin(), charts.end()};
@@ -392,8 +361,8 @@ void report(const ReproduceOptions& options, const std::vector<Condition>& condi
     for (std::size_t s = 0; s < of(preset).size(); ++s)
       for (const Measured& measured : of(preset)[s].figures)
         result.facts_at({"figures", name_of(preset), std::to_string(s + 1), place_and_subject_of(measured)}, "per_cent",
-                        relative(measured), "against_correct_imm", shown(measured, 0), "against_released_imm",
-                        shown(measured, 1));
+                        measured.statement->figure->relative, "against_correct_imm", measured.shown(0),
+                        "against_released_imm", measured.shown(1));
   result.publish(files);
 }
 

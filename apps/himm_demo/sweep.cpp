@@ -113,6 +113,12 @@ struct Tuned {
   Statistic score{};
 };
 
+/// Somebody by the filter that it is in each condition.
+struct Rival {
+  std::string name;
+  std::vector<std::size_t> filter;
+};
+
 /// Whether zero is outside of it.
 bool sure(const Interval& interval) { return interval.above_zero() || interval.below_zero(); }
 
@@ -122,12 +128,14 @@ class SweepWorld {
   const SweepOptions& options;
   std::vector<SweepCondition> conditions = conditions_of(options);
   std::vector<FilterSettings> filters;
+  std::size_t imm;                 ///< its place among the filters, or their number
   std::vector<Tuned> all_tuned{};  ///< by condition and filter
 
   /// Throws InputError for a filter that there is not.
   explicit SweepWorld(const SweepOptions& what) : options(what) {
     const std::vector<std::string> sets = {fmt::format("filters=[{}]", fmt::join(options.filters, ","))};
     filters = read_filters(Settings::read({}, sets), FilterDefaults::of(Preset::paper_text, group(1, 1)));
+    imm = static_cast<std::size_t>(std::ranges::find(filters, "imm", &FilterSettings::name) - filters.begin());
   }
 
   /// Tunes each filter in each condition and judges it on other runs. A cell is condition · filters + filter.
@@ -154,11 +162,6 @@ class SweepWorld {
 
   const Tuned& tuned(std::size_t condition, std::size_t f) const { return all_tuned[condition * filters.size() + f]; }
 
-  /// The settings that were chosen.
-  FilterSettings settings(std::size_t condition, std::size_t f) const {
-    return settings(condition, f, tuned(condition, f).numbers, tuned(condition, f).lift);
-  }
-
   /// Whether there may be better ones beyond the ends of what was searched.
   bool at_the_limit(std::size_t cell) const {
     for (std::size_t i = 0; i < 4; ++i) {
@@ -172,12 +175,7 @@ class SweepWorld {
     return false;
   }
 
-  /// The place of the IMM among the filters, and of the fuzzy interacting filter whose score on the tuning runs is the
-  /// least: what is called HIMM.
-  std::optional<std::size_t> imm() const {
-    const auto found = std::ranges::find(filters, "imm", &FilterSettings::name);
-    return found == filters.end() ? std::nullopt : std::optional(static_cast<std::size_t>(found - filters.begin()));
-  }
+  /// The fuzzy interacting filter whose score on the tuning runs is the least: what is called HIMM.
   std::optional<std::size_t> himm(std::size_t condition) const {
     std::optional<std::size_t> best;
     for (std::size_t f = 0; f < filters.size(); ++f)
@@ -187,10 +185,20 @@ class SweepWorld {
     return best;
   }
 
+  /// Who is compared with the tuned IMM: HIMM, if there is one, and each filter; nobody without the IMM.
+  std::vector<Rival> rivals() const {
+    std::vector<Rival> all;
+    if (imm == filters.size()) return all;
+    if (himm(0)) all.push_back({"HIMM", each_below(conditions.size(), [&](std::size_t c) { return *himm(c); })});
+    for (std::size_t f = 0; f < filters.size(); ++f)
+      if (f != imm) all.push_back({filters[f].name, std::vector(conditions.size(), f)});
+    return all;
+  }
+
   /// By how much the score is above that of the tuned IMM, relatively; one of as many intervals as there are
   /// conditions.
   Interval against_imm(std::size_t condition, std::size_t f) const {
-    return (tuned(condition, f).score / tuned(condition, *imm()).score - 1.0).interval(conditions.size());
+    return (tuned(condition, f).score / tuned(condition, imm).score - 1.0).interval(conditions.size());
   }
 
  private:
@@ -274,18 +282,21 @@ class SweepWorld {
 
 /// HIMM against the tuned IMM in words; nothing where one of them is missing.
 std::string answer(const SweepWorld& world) {
-  if (!world.imm() || !world.himm(0)) return "";
-  std::size_t better = 0, worse = 0, open = 0, best = 0;
-  const auto difference = [&](std::size_t c) { return world.against_imm(c, *world.himm(c)); };
+  const std::vector<Rival> rivals = world.rivals();
+  if (rivals.empty() || rivals.front().name != "HIMM") return "";
+  std::size_t better = 0, worse = 0, best = 0;
+  const auto difference = [&](std::size_t c) { return world.against_imm(c, rivals.front().filter[c]); };
   for (std::size_t c = 0; c < world.conditions.size(); ++c) {
-    ++(difference(c).below_zero() ? better : difference(c).above_zero() ? worse : open);
+    better += difference(c).below_zero() ? 1 : 0;
+    worse += difference(c).above_zero() ? 1 : 0;
     if (difference(c).mean < difference(best).mean) best = c;
   }
   return fmt::format(
       "HIMM is better than the tuned IMM in {} of {} conditions, worse in {}, and {} are open. At best its score "
       "differs by {} ± {} %: scenario {}. HIMM is what did best on the tuning runs under any reading of (57).",
-      better, world.conditions.size(), worse, open, number_text(100.0 * difference(best).mean, 1, true),
-      number_text(100.0 * difference(best).half_width, 1), words_of(world.conditions[best]));
+      better, world.conditions.size(), worse, world.conditions.size() - better - worse,
+      number_text(100.0 * difference(best).mean, 1, true), number_text(100.0 * difference(best).half_width, 1),
+      words_of(world.conditions[best]));
 }
 
 /// How many settings were tried, and by how many runs.
@@ -334,148 +345,117 @@ ResultTable filters_table(const SweepWorld& world) {
                    {{.key = "score", .header = "judged", .digits = 3, .interval = true, .group = "score:"},
                     tuned.score.interval()},
                    {{.key = "above_imm", .header = "% above imm", .digits = 1, .scale = 100.0, .interval = true},
-                    world.imm() ? Cell(world.against_imm(c, f)) : Cell()},
+                    world.imm < world.filters.size() ? Cell(world.against_imm(c, f)) : Cell()},
                    {{.key = "is_himm"}, world.himm(c) == f ? 1 : 0}});
     table.row_of(fields);
   }
   return table;
 }
 
-/// Whom a column or a view of maps is of: a filter, or HIMM, which is another one in each condition.
-struct Choice {
-  std::string name;
-  std::optional<std::size_t> filter{};
-
-  std::size_t in(const SweepWorld& world, std::size_t condition) const {
-    return filter ? *filter : *world.himm(condition);
-  }
-};
-
-/// All but the tuned IMM.
-std::vector<Choice> filters_but_imm(const SweepWorld& world) {
-  std::vector<Choice> all;
-  for (std::size_t f = 0; f < world.filters.size(); ++f)
-    if (f != world.imm()) all.push_back({world.filters[f].name, f});
-  return all;
-}
-
 /// The score of the tuned IMM, and by how much the others are above it, with a mark where the interval is on one side
 /// of zero.
 ResultTable above_imm_table(const SweepWorld& world) {
-  std::vector<Choice> choices = filters_but_imm(world);
-  choices.push_back({"himm"});
+  std::vector<Rival> rivals = world.rivals();
+  if (world.himm(0)) std::rotate(rivals.begin(), rivals.begin() + 1, rivals.end());
   ResultTable table;
   for (std::size_t c = 0; c < world.conditions.size(); ++c) {
     std::vector<Field> fields = {{of_words("", "scenario"), words_of(world.conditions[c])},
-                                 {{.header = "imm", .digits = 3}, world.tuned(c, *world.imm()).score.value()}};
-    for (const Choice& choice : choices) {
-      Cell cell;
-      if (choice.filter || world.himm(c)) {
-        const Interval above = world.against_imm(c, choice.in(world, c));
-        cell = number_text(100.0 * above.mean, 1, true) + (sure(above) ? "*" : " ");
-      }
-      fields.push_back({{.header = choice.name, .group = "% above imm:"}, cell});
+                                 {{.header = "imm", .digits = 3}, world.tuned(c, world.imm).score.value()}};
+    for (const Rival& rival : rivals) {
+      const Interval above = world.against_imm(c, rival.filter[c]);
+      fields.push_back({{.header = lower_case(rival.name), .group = "% above imm:"},
+                        number_text(100.0 * above.mean, 1, true) + (sure(above) ? "*" : " ")});
     }
     table.row_of(fields);
   }
   return table;
 }
 
-/// Makes maps of by how much filters are above the tuned IMM.
-class Maps {
- public:
-  explicit Maps(const SweepWorld& world) : world_(world) {
-    if (world.himm(0)) choices_.insert(choices_.begin(), {"HIMM"});
-    std::vector<double> sizes;
-    for (std::size_t c = 0; c < world.conditions.size(); ++c)
-      sizes.push_back(std::abs(world.against_imm(c, choices_.front().in(world, c)).mean));
-    std::ranges::sort(sizes);
-    most_ = sizes[sizes.size() * 19 / 20];
-  }
+/// By how much filters are above the tuned IMM; at(row, column) gives the condition and who is compared.
+template <class At>
+HeatMap above_imm_map(const SweepWorld& world, HeatMap map, const At& at) {
+  auto sizes = each_below(world.conditions.size(), [&, first = world.rivals().front()](std::size_t c) {
+    return std::abs(world.against_imm(c, first.filter[c]).mean);
+  });
+  std::ranges::sort(sizes);
+  map.most = sizes[sizes.size() * 19 / 20];
+  map.value_label = "% above the score of the tuned IMM";
+  map.diverging = map.sign = true;
+  map.digits = 1;
+  map.scale = 100.0;
+  map.note =
+      fmt::format("Negative is better. *: the interval is on one side of 0. Colours are strongest from ± {} % on.",
+                  number_text(100.0 * *map.most, 1));
+  map.fill([&](std::size_t row, std::size_t column) {
+    const auto& [c, rival] = at(row, column);
+    const std::size_t f = rival.filter[c];
+    const auto& [numbers, lift, tuning_score, tried, judged] = world.tuned(c, f);
+    const Interval above = world.against_imm(c, f), score = judged.interval();
+    return HeatMap::Cell{
+        above.mean,
+        fmt::format("± {} %, score {} ± {}; {}: leaving {}, returning {}, sigma_w {} and {}, lift {}{}",
+                    number_text(100.0 * above.half_width, 1), number_text(score.mean, 3),
+                    number_text(score.half_width, 3), world.filters[f].name, numbers[0], numbers[1], numbers[2],
+                    numbers[3], world.options.lifts[lift],
+                    world.at_the_limit(c * world.filters.size() + f) ? ", at the limit of the search" : ""),
+        sure(above)};
+  });
+  return map;
+}
 
-  /// Conditions by filters, a map for each scenario.
-  std::vector<Panel> of_all_filters() const {
-    std::vector<Panel> panels;
-    for (const int scenario : world_.options.scenarios) {
-      HeatMap map = empty(fmt::format("Scenario {}", scenario), "condition", "filter");
-      map.columns = each(choices_, &Choice::name);
-      std::vector<std::size_t> own;
-      for (std::size_t c = 0; c < world_.conditions.size(); ++c) {
-        if (world_.conditions[c].scenario != scenario) continue;
-        const std::string words = words_of(world_.conditions[c]);
-        map.rows.push_back(words.size() > 3 ? words.substr(3) : "as in the paper");
-        own.push_back(c);
-      }
-      map.fill([&](std::size_t r, std::size_t column) { return cell(own[r], choices_[column]); });
-      panels.emplace_back(std::move(map));
+/// Conditions by filters, a map for each scenario.
+std::vector<Panel> maps_of_all(const SweepWorld& world) {
+  const std::vector<Rival> rivals = world.rivals();
+  std::vector<Panel> panels;
+  for (const int scenario : world.options.scenarios) {
+    HeatMap map{.title = fmt::format("Scenario {}", scenario),
+                .row_label = "condition",
+                .column_label = "filter",
+                .columns = each(rivals, &Rival::name)};
+    std::vector<std::size_t> own;
+    for (std::size_t c = 0; c < world.conditions.size(); ++c) {
+      if (world.conditions[c].scenario != scenario) continue;
+      const std::string words = words_of(world.conditions[c]);
+      map.rows.push_back(words.size() > 3 ? words.substr(3) : "as in the paper");
+      own.push_back(c);
     }
-    return panels;
+    panels.emplace_back(above_imm_map(world, std::move(map), [&](std::size_t row, std::size_t column) {
+      return std::pair(own[row], rivals[column]);
+    }));
   }
+  return panels;
+}
 
-  /// All conditions of a scenario, a view for each filter: strength and length by noise and period.
-  std::vector<View> of_each_filter() const {
-    const auto& all = world_.options.factors;
-    const auto names = [&](Factor first, Factor second) {
-      std::vector<std::string> crossed;
-      for (const double a : all[first])
-        for (const double b : all[second]) crossed.push_back(fmt::format("×{:g}, ×{:g}", a, b));
-      return crossed;
-    };
-    std::vector<View> views;
-    for (const Choice& choice : choices_) {
-      View& view = views.emplace_back(View{choice.name, {}});
-      for (const int scenario : world_.options.scenarios) {
-        HeatMap map = empty(fmt::format("{}, scenario {}", choice.name, scenario), "strength, length of the manoeuvre",
-                            "noise, period");
-        map.rows = names(strength, length);
-        map.columns = names(noise, period);
-        map.fill([&](std::size_t r, std::size_t c) {
-          const std::size_t lengths = all[length].size(), periods = all[period].size();
-          const SweepCondition here{scenario,
-                                    {all[noise][c / periods], all[period][c % periods], all[strength][r / lengths],
-                                     all[length][r % lengths]}};
-          const auto found = std::ranges::find(world_.conditions, here);
-          return cell(static_cast<std::size_t>(found - world_.conditions.begin()), choice);
-        });
-        view.panels.emplace_back(std::move(map));
-      }
-    }
-    return views;
-  }
-
- private:
-  HeatMap empty(std::string title, std::string row_label, std::string column_label) const {
-    return {.title = std::move(title),
-            .row_label = std::move(row_label),
-            .column_label = std::move(column_label),
-            .value_label = "% above the score of the tuned IMM",
-            .diverging = true,
-            .digits = 1,
-            .scale = 100.0,
-            .sign = true,
-            .most = most_,
-            .note = fmt::format(
-                "Negative is better. *: the interval is on one side of 0. Colours are strongest from ± {} % on.",
-                number_text(100.0 * most_, 1))};
-  }
-
-  HeatMap::Cell cell(std::size_t c, const Choice& choice) const {
-    const std::size_t f = choice.in(world_, c);
-    const Tuned& tuned = world_.tuned(c, f);
-    const Interval above = world_.against_imm(c, f), score = tuned.score.interval();
-    return {above.mean,
-            fmt::format("± {} %, score {} ± {}; {}: leaving {}, returning {}, sigma_w {} and {}, lift {}{}",
-                        number_text(100.0 * above.half_width, 1), number_text(score.mean, 3),
-                        number_text(score.half_width, 3), world_.filters[f].name, tuned.numbers[0], tuned.numbers[1],
-                        tuned.numbers[2], tuned.numbers[3], world_.options.lifts[tuned.lift],
-                        world_.at_the_limit(c * world_.filters.size() + f) ? ", at the limit of the search" : ""),
-            sure(above)};
-  }
-
-  const SweepWorld& world_;
-  std::vector<Choice> choices_ = filters_but_imm(world_);
-  double most_ = 0.0;
-};
+/// All conditions of a scenario, a view for each filter: strength and length by noise and period.
+std::vector<View> maps_of_each(const SweepWorld& world) {
+  const auto& all = world.options.factors;
+  const auto names = [&](Factor first, Factor second) {
+    std::vector<std::string> crossed;
+    for (const double a : all[first])
+      for (const double b : all[second]) crossed.push_back(fmt::format("×{:g}, ×{:g}", a, b));
+    return crossed;
+  };
+  return each(world.rivals(), [&](const Rival& rival) {
+    View view{rival.name, {}};
+    for (const int scenario : world.options.scenarios)
+      view.panels.emplace_back(
+          above_imm_map(world,
+                        {.title = fmt::format("{}, scenario {}", rival.name, scenario),
+                         .row_label = "strength, length of the manoeuvre",
+                         .column_label = "noise, period",
+                         .rows = names(strength, length),
+                         .columns = names(noise, period)},
+                        [&](std::size_t row, std::size_t column) {
+                          const std::size_t lengths = all[length].size(), periods = all[period].size();
+                          const SweepCondition here{scenario,
+                                                    {all[noise][column / periods], all[period][column % periods],
+                                                     all[strength][row / lengths], all[length][row % lengths]}};
+                          const auto found = std::ranges::find(world.conditions, here);
+                          return std::pair(static_cast<std::size_t>(found - world.conditions.begin()), rival);
+                        }));
+    return view;
+  });
+}
 
 void report(const SweepWorld& world) {
   constexpr std::size_t most_rows = 300;  // of a table in the page
@@ -487,7 +467,8 @@ void report(const SweepWorld& world) {
   const bool all_shown = world.all_tuned.size() <= most_rows;
   result.facts("campaign", world.study().description, "searched", searched(world));
   result.say(searched(world));
-  if (world.imm()) {
+  const bool compares = world.imm < world.filters.size();
+  if (compares) {
     result.add(above_imm_table(world), {});
     result.say(
         "(imm: mean over axes and phases of RMSE over that of the measurement. *: the 95 % interval, by paired runs "
@@ -511,14 +492,11 @@ void report(const SweepWorld& world) {
                          ". The score is the mean over axes and phases of RMSE over that of the measurement.");
   if (!all_shown)
     page.verdict.emplace_back("The best settings of every filter are in tuned.csv, and in each cell of the maps.");
-  if (world.imm() && world.filters.size() > 1) {
-    const Maps maps(world);
-    if (options.cross) {
-      page.chooser = "Filter";
-      page.views = maps.of_each_filter();
-    } else {
-      page.panels = maps.of_all_filters();
-    }
+  if (compares && options.cross) {
+    page.chooser = "Filter";
+    page.views = maps_of_each(world);
+  } else if (compares && world.filters.size() > 1) {
+    page.panels = maps_of_all(world);
   }
   result.publish(files);
 }

@@ -13,18 +13,29 @@ constexpr std::string_view table =
 #include "himm_demo/experiment/sentences.txt"
     ;
 
-/// In the order of FigureOf and Actor.
-constexpr std::array<std::string_view, 7> figures = {"rmse", "onset_rmse", "cross_time",         "cross_time_curves",
-                                                     "lead", "switches",   "switches_of_the_run"};
-constexpr std::array<std::string_view, 6> actors = {"himm",        "himm_wide", "imm", "imm_most_likely",
-                                                    "measurement", "nobody"};
-
-template <class Named>
-Named named(std::span<const std::string_view> names, std::string_view name) {
-  const auto found = std::ranges::find(names, name);
-  if (found == names.end()) throw std::logic_error(fmt::format("a sentence speaks of {}", name));
-  return static_cast<Named>(found - names.begin());
-}
+using Of = std::size_t;
+constexpr std::array<FigureOf, 7> figures = {{
+    {"rmse", "RMSE", true, true, true,  // relative difference
+     [](const Tally& tally, Of of, std::size_t place) { return tally.rmse(of, place / 3, place % 3); }},
+    {"onset_rmse", "RMSE of z after 81", true, false,
+     false,  // the ten samples from the onset on relative to ten before
+     [](const Tally& tally, Of of, std::size_t) {
+       return sqrt(tally.mean(of, Tally::onset_z + 1) / tally.mean(of, Tally::onset_z)) - 1.0;
+     }},
+    {"cross_time", "cross-time", false, false, false,  // mean of the runs, in samples
+     [](const Tally& tally, Of of, std::size_t) { return tally.cross_time(of); }},
+    {"cross_time_curves", "crossing of curves", false, false, false,  // of the averaged curves, in samples
+     [](const Tally& tally, Of of, std::size_t) { return tally.cross_time_of_batches(of); }},
+    {"lead", "share of DWPA", true, false, true,  // of the samples, in which its weight is the greatest
+     [](const Tally& tally, Of of, std::size_t place) { return tally.mean(of, Tally::lead + place); }},
+    {"switches", "switches", false, false, true,  // of the leading model, per run and phase
+     [](const Tally& tally, Of of, std::size_t place) { return tally.mean(of, Tally::switches + place); }},
+    {"switches_of_the_run", "switches of a run", false, false, false,
+     [](const Tally& tally, Of of, std::size_t) {
+       const auto phase = [&](std::size_t p) { return tally.mean(of, Tally::switches + p); };
+       return phase(0) + phase(1) + phase(2);
+     }},
+}};
 
 Statement statement(const std::string& line) {
   std::istringstream words(line);
@@ -32,9 +43,11 @@ Statement statement(const std::string& line) {
   int scenario = 0, group = 0;
   char slash = '/';
   words >> figure >> of >> against >> scenario >> slash >> group >> in >> above >> below;
-  Statement result{
-      named<FigureOf>(figures, figure),    named<Actor>(actors, of), named<Actor>(actors, against), scenario, group, {},
-      {std::stod(above), std::stod(below)}};
+  const auto known = std::ranges::find(figures, figure, &FigureOf::name);
+  if (known == figures.end()) throw std::logic_error(fmt::format("a sentence speaks of {}", figure));
+  if (of == "most_likely") of = "most likely";
+  if (against == "nobody") against = "";
+  Statement result{known, of, against, scenario, group, {}, {std::stod(above), std::stod(below)}};
   for (std::size_t phase = 0; phase < phase_names.size(); ++phase)
     if (in.find(phase_names[phase]) != std::string::npos) result.phases.push_back(phase);
   return result;
@@ -55,17 +68,6 @@ Finding finding_of(const Interval& interval, const Region& region) {
   return Finding::open;
 }
 
-/// The figure of one filter that is not by axis.
-Statistic figure_of(FigureOf figure, const Tally& tally, std::size_t of, std::size_t phase) {
-  const auto mean = [&](std::size_t place) { return tally.mean(of, place); };
-  if (figure == FigureOf::onset_rmse) return sqrt(mean(Tally::onset_z + 1) / mean(Tally::onset_z)) - 1.0;
-  if (figure == FigureOf::cross_time) return tally.cross_time(of);
-  if (figure == FigureOf::cross_time_curves) return tally.cross_time_of_batches(of);
-  if (figure == FigureOf::lead) return mean(Tally::lead + phase);
-  if (figure == FigureOf::switches) return mean(Tally::switches + phase);
-  return mean(Tally::switches) + mean(Tally::switches + 1) + mean(Tally::switches + 2);
-}
-
 /// All figures of a sentence under a preset.
 Judged measured(const Sentence& sentence, const std::vector<Condition>& conditions, Preset preset,
                 std::string_view reading) {
@@ -77,27 +79,26 @@ Judged measured(const Sentence& sentence, const std::vector<Condition>& conditio
     });
     if (found == conditions.end()) throw std::logic_error("a sentence speaks of what was not run");
     const Tally& tally = found->tally;
+    const FigureOf& kind = *statement.figure;
     const auto add = [&](std::optional<std::size_t> phase, std::optional<std::size_t> axis) {
       judged.figures.push_back({&statement, phase, axis});
       for (const bool released_imm : {false, true}) {
-        const auto figure = [&](Actor actor) {
+        const auto figure = [&](const std::string& actor) {
           const std::size_t of = tally.place(filter_of(actor, reading, released_imm)).value();
-          return axis ? tally.rmse(of, *phase, *axis) : figure_of(statement.figure, tally, of, phase.value_or(0));
+          return kind.of(tally, of, axis ? 3 * *phase + *axis : phase.value_or(0));
         };
         Statistic value = figure(statement.of);
-        if (axis)
+        if (kind.by_axis)
           value = value / figure(statement.against) - 1.0;
-        else if (statement.against != Actor::nobody)
+        else if (!statement.against.empty())
           value = value - figure(statement.against);
         values[released_imm ? 1 : 0].push_back(std::move(value));
       }
     };
-    const bool by_phase = statement.figure == FigureOf::lead || statement.figure == FigureOf::switches;
-    if (!by_phase && statement.figure != FigureOf::rmse) add({}, {});
-    for (const std::size_t phase : statement.phases) {
-      if (by_phase) add(phase, {});
-      for (std::size_t axis = 0; axis < 3 && statement.figure == FigureOf::rmse; ++axis) add(phase, axis);
-    }
+    if (!kind.by_phase) add({}, {});
+    for (const std::size_t phase : statement.phases)
+      for (std::size_t axis = 0; kind.by_phase && axis < (kind.by_axis ? 3 : 1); ++axis)
+        add(phase, kind.by_axis ? std::optional(axis) : std::nullopt);
   }
   for (const std::size_t imm : {0U, 1U})
     for (std::size_t i = 0; i < judged.figures.size(); ++i) {
@@ -110,10 +111,24 @@ Judged measured(const Sentence& sentence, const std::vector<Condition>& conditio
 
 }  // namespace
 
-std::string filter_of(Actor actor, std::string_view reading, bool released_imm) {
-  const std::string himm = "himm_" + std::string(reading), imm = released_imm ? "imm_released" : "imm";
-  const std::array<std::string, 6> names = {himm, himm + "_5", imm, imm + "_most_likely", measurement_name, ""};
-  return names[static_cast<std::size_t>(actor)];
+std::string filter_of(const std::string& actor, std::string_view reading, bool released_imm) {
+  const std::string imm = released_imm ? "imm_released" : "imm";
+  if (actor.starts_with("himm")) return fmt::format("himm_{}{}", reading, actor.substr(4));
+  return actor == "imm" ? imm : actor == "most likely" ? imm + "_most_likely" : actor;
+}
+
+std::string Measured::subject() const {
+  std::string text = statement->of;
+  if (!statement->against.empty()) text.append(" : ").append(statement->against);
+  if (!statement->figure->by_axis) text.append(", ").append(statement->figure->words);
+  if (phase) text.append(", ").append(phase_names[*phase]);
+  if (axis) text.append(" ").append(axis_names[*axis]);
+  return text;
+}
+
+Interval Measured::shown(std::size_t imm) const {
+  const double scale = statement->figure->relative ? 100.0 : 1.0;
+  return {scale * interval[imm].mean, scale * interval[imm].half_width};
 }
 
 Verdict Judged::verdict() const {
@@ -160,7 +175,7 @@ Region claim_of(int scenario, int group, std::size_t phase) {
   for (const auto& sentence : sentences())
     for (const auto& statement : sentence.statements) {
       const auto& phases = statement.phases;
-      if (statement.figure == FigureOf::rmse && statement.of == Actor::himm && statement.against == Actor::imm &&
+      if (statement.figure->by_axis && statement.of == "himm" && statement.against == "imm" &&
           statement.scenario == scenario && statement.group == group &&
           std::ranges::find(phases, phase) != phases.end())
         return statement.region;

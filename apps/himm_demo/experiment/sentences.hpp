@@ -4,25 +4,13 @@
 
 namespace sigmax::apps {
 
-/// Of whom a sentence of section VI speaks.
-enum class Actor {
-  himm,
-  himm_wide,  ///< with σ_w = 5
-  imm,
-  imm_most_likely,  ///< its output is that of the most probable model
-  measurement,
-  nobody
-};
-
-/// Of what it speaks. Where the sentence compares two, it is the first's figure relative to the second's.
-enum class FigureOf {
-  rmse,                ///< by axis and phase: relative difference
-  onset_rmse,          ///< of z, the ten samples from the onset on relative to the ten before
-  cross_time,          ///< mean of the runs, in samples
-  cross_time_curves,   ///< of the averaged curves, in samples
-  lead,                ///< share of the samples of a phase in which the manoeuvre model has the greatest weight
-  switches,            ///< of the leading model, per run and phase
-  switches_of_the_run  ///< in all phases together
+/// Of what a sentence of section VI speaks. Where it compares two, it is the first's figure relative to the second's.
+struct FigureOf {
+  std::string_view name, words;
+  bool relative;  ///< a share or a relative difference, which is shown in per cent
+  bool by_axis, by_phase;
+  Statistic (*of)(const Tally& tally, std::size_t filter,
+                  std::size_t place);  ///< that of the phase and axis, as in a row
 };
 
 /// Where a figure must lie for the sentence to hold.
@@ -35,8 +23,9 @@ enum class Finding { inside, outside, open };
 
 /// A part of a sentence that can be measured.
 struct Statement {
-  FigureOf figure;
-  Actor of, against;
+  const FigureOf* figure;
+  std::string of,
+      against;  ///< "himm", "himm_5" with σ_w = 5, "imm", "most likely" with such an output, "measurement", ""
   int scenario, group;
   std::vector<std::size_t> phases;  ///< 0: before, 1: during, 2: after the manoeuvre
   Region region;
@@ -55,9 +44,9 @@ constexpr std::array<const char*, 5> himm_readings = {"selected", "own", "own_re
 /// The reading that a preset takes for the paper's.
 constexpr std::string_view reading_of(Preset preset) { return preset == Preset::released ? "released" : "own"; }
 
-/// The name of the filter that a sentence is about, or nothing of nobody: by a reading of (57), for HIMM, and with the
-/// authors' program's IMM or the correct one.
-std::string filter_of(Actor actor, std::string_view reading, bool released_imm);
+/// The name of the filter that a sentence is about: by a reading of (57), for HIMM, and with the authors' program's IMM
+/// or the correct one.
+std::string filter_of(const std::string& actor, std::string_view reading, bool released_imm);
 
 /// One scenario and group under one preset, with all that was found there.
 struct Condition {
@@ -73,6 +62,12 @@ struct Measured {
   std::optional<std::size_t> phase, axis;
   std::array<Interval, 2> interval{};
   std::array<Finding, 2> finding{};
+
+  /// Of whom it is, and when: "himm : imm, during z".
+  std::string subject() const;
+
+  /// The interval as it is shown, perhaps in per cent.
+  Interval shown(std::size_t imm) const;
 };
 
 enum class Verdict { holds, only_against_released, does_not_hold, undecided };

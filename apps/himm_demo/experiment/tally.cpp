@@ -44,29 +44,17 @@ std::optional<double> crossing_of(const Experiment& experiment, const Lead& lead
   return std::nullopt;
 }
 
-void record(const TargetPoint& point, const Vector<6>& truth, Trace& trace) {
+Sample sample_of(const TargetPoint& point, const Vector<6>& truth) {
   const auto n = static_cast<Eigen::Index>(point.mean.size());
   const Eigen::Map<const Eigen::VectorXd> mean(point.mean.data(), n);
   const Eigen::Map<const Eigen::MatrixXd> covariance(point.covariance.data(), n, n);
-  trace.error[point.tag] = mean.head<3>() - truth.head<3>();
-  trace.covariance[point.tag] = covariance.topLeftCorner<3, 3>();
-  trace.nees_position[point.tag] = normalized_error_squared<3, 3>(trace.error[point.tag], trace.covariance[point.tag]);
+  Sample sample{mean.head<3>() - truth.head<3>(), covariance.topLeftCorner<3, 3>()};
+  sample.nees_position = normalized_error_squared<3, 3>(sample.error, sample.covariance);
   if (n >= 6)
-    trace.nees_velocity[point.tag] =
-        normalized_error_squared<6, 6>(mean.head<6>() - truth, covariance.topLeftCorner<6, 6>());
-  trace.nis[point.tag] = point.nis.value_or(nan);
-  trace.weights[point.tag] = point.weights;
-}
-
-/// What one trace adds to the sums of a sample; where the gate turned the measurement away there is no NIS.
-void add_sample(const Trace& trace, std::size_t k, double* sums) {
-  for (std::size_t axis = 0; axis < 3; ++axis) sums[axis] = std::pow(trace.error[k](static_cast<int>(axis)), 2);
-  sums[Tally::nees_position] = trace.nees_position[k];
-  sums[Tally::nees_velocity] = trace.nees_velocity[k];
-  sums[Tally::nis_count] = std::isnan(trace.nis[k]) ? 0.0 : 1.0;
-  sums[Tally::nis] = std::isnan(trace.nis[k]) ? 0.0 : trace.nis[k];
-  sums[Tally::weight_count] = trace.weights[k].empty() ? 0.0 : 1.0;
-  std::ranges::copy(trace.weights[k], sums + Tally::weight);
+    sample.nees_velocity = normalized_error_squared<6, 6>(mean.head<6>() - truth, covariance.topLeftCorner<6, 6>());
+  sample.nis = point.nis.value_or(nan);
+  sample.weights = point.weights;
+  return sample;
 }
 
 }  // namespace
@@ -89,13 +77,13 @@ Recording Experiment::recording(std::uint64_t number) const {
 
 TracedRun Experiment::traced(std::uint64_t number) const {
   const auto [truth, measured] = recording(number);
-  TracedRun run{truth, std::vector(1 + filters.size(), Trace{truth.size()})};
+  TracedRun run{truth, std::vector(1 + filters.size(), Trace(truth.size()))};
   for (std::size_t k = 0; k < truth.size(); ++k)
-    run.traces[0].error[k] = to_cartesian(measured[k]) - truth[k].head<3>();
+    run.traces[0][k].error = to_cartesian(measured[k]) - truth[k].head<3>();
   for (std::size_t f = 0; f < filters.size(); ++f) {
     const FilterSettings& filter = filters[f];
     const auto visit = [&, &truth = run.truth](const TargetPoint& point) {
-      record(point, truth[point.tag], run.traces[f + 1]);
+      run.traces[f + 1][point.tag] = sample_of(point, truth[point.tag]);
     };
     const auto plots = plots_of(filter, scenario.step_s, measured);
     AnyTarget target(choice_of(filter, 3));
@@ -128,23 +116,21 @@ Tally::Tally(Experiment what, bool by_sample)
     width_ = std::max(width_, weight + one.models.size());
   }
   if (!by_sample) width_ = 0;
-  sums_.resize(at(size(), 0));
-  spread_.resize(by_sample ? 3 * size() * experiment.samples() : 0);
+  means_.resize(at(size(), 0));
 }
 
 void Tally::add_figures(const Trace& trace, std::size_t of, double* sums) const {
   const auto& phases = experiment.scenario.phases;
   for (std::size_t i = 0; i < 9; ++i) {
     const auto axis = static_cast<Eigen::Index>(i % 3);
-    sums[square + i] +=
-        phase_mean(phases[i / 3], [&](std::size_t k) { return trace.error[k](axis) * trace.error[k](axis); });
+    sums[square + i] += phase_mean(phases[i / 3], [&](std::size_t k) { return std::pow(trace[k].error(axis), 2); });
   }
   const int onset = experiment.scenario.onset(), last = experiment.scenario.samples();
-  const auto squared_z = [&](std::size_t k) { return trace.error[k].z() * trace.error[k].z(); };
+  const auto squared_z = [&](std::size_t k) { return std::pow(trace[k].error.z(), 2); };
   sums[onset_z] += phase_mean({onset - 10, onset - 1}, squared_z);
   sums[onset_z + 1] += phase_mean({onset, std::min(onset + 9, last)}, squared_z);
   if (!manoeuvre_[of]) return;
-  const auto leads = [&](std::size_t k) { return weight_difference(trace.weights[k], *manoeuvre_[of]); };
+  const auto leads = [&](std::size_t k) { return weight_difference(trace[k].weights, *manoeuvre_[of]); };
   for (std::size_t p = 0; p < phases.size(); ++p) {
     sums[lead + p] += phase_mean(phases[p], [&](std::size_t k) { return leads(k) > 0.0 ? 1.0 : 0.0; });
     for (auto k = static_cast<std::size_t>(phases[p].first - 1); k < static_cast<std::size_t>(phases[p].last); ++k)
@@ -159,27 +145,31 @@ void Tally::add_figures(const Trace& trace, std::size_t of, double* sums) const 
 }
 
 Study::Row Tally::row(std::uint64_t first, std::uint64_t last) const {
-  Study::Row row(columns_.size() + sums_.size(), 0.0);
+  Study::Row row(columns_.size(), 0.0);
   row[0] = static_cast<double>(last - first);
   for (std::uint64_t number = first; number < last; ++number) {
     const TracedRun run = experiment.traced(number);
     for (std::size_t of = 0; of < size(); ++of) {
       add_figures(run.traces[of], of, &row[1 + figures * of]);
-      for (std::size_t k = 0; k < experiment.samples() && width_ > 0; ++k)
-        add_sample(run.traces[of], k, &row[columns_.size() + at(of, k)]);
+      for (std::size_t k = 0; k < experiment.samples() && width_ > 0; ++k) {
+        const Sample& sample = run.traces[of][k];
+        for (const double error : sample.error) row.push_back(error * error);
+        row.insert(row.end(), {sample.nees_position, sample.nees_velocity, sample.nis});
+        row.insert(row.end(), sample.weights.begin(), sample.weights.end());
+        row.resize(columns_.size() + at(of, k + 1), nan);
+      }
     }
   }
   return row;
 }
 
 void Tally::add(std::span<const double> row) {
-  const std::size_t columns = columns_.size(), numbers = columns + sums_.size();
+  const std::size_t numbers = columns_.size() + means_.size();
   if (row.size() != numbers)
     throw std::runtime_error(fmt::format("a cell of {} numbers, expected {}", row.size(), numbers));
-  for (std::size_t c = 0; c < columns; ++c) columns_[c].push_back(row[c]);
-  row = row.subspan(columns);
-  for (std::size_t i = 0; i < sums_.size(); ++i) sums_[i] += row[i];
-  for (std::size_t i = 0; i < spread_.size(); ++i) spread_[i].add(row[i / 3 * width_ + i % 3]);
+  for (std::size_t c = 0; c < columns_.size(); ++c) columns_[c].push_back(row[c]);
+  for (std::size_t i = 0; i < means_.size(); ++i)
+    if (const double number = row[columns_.size() + i]; !std::isnan(number)) means_[i].add(number);
 }
 
 std::string Tally::name(std::size_t of) const { return of == 0 ? measurement_name : experiment.filters[of - 1].name; }
@@ -190,10 +180,12 @@ std::optional<std::size_t> Tally::place(std::string_view name) const {
   return std::nullopt;
 }
 
-double Tally::runs() const { return std::accumulate(columns_[0].begin(), columns_[0].end(), 0.0); }
+const std::vector<double>& Tally::column(std::size_t of, std::size_t figure) const {
+  return columns_[1 + figures * of + figure];
+}
 
 Statistic Tally::mean(std::size_t of, std::size_t figure) const {
-  return Statistic::mean(columns_[1 + figures * of + figure], columns_[0]);
+  return Statistic::mean(column(of, figure), columns_[0]);
 }
 
 Statistic Tally::rmse(std::size_t of, std::size_t phase, std::size_t axis) const {
@@ -207,12 +199,10 @@ Statistic Tally::over_measurement(std::size_t of) const {
   return sum * (1.0 / 9.0);
 }
 
-Statistic Tally::cross_time(std::size_t of) const {
-  return Statistic::mean(columns_[1 + figures * of + crossing], columns_[1 + figures * of + crossed]);
-}
+Statistic Tally::cross_time(std::size_t of) const { return Statistic::mean(column(of, crossing), column(of, crossed)); }
 
 std::vector<double> Tally::cross_times(std::size_t of) const {
-  std::vector<double> times = columns_[1 + figures * of + crossing];
+  std::vector<double> times = column(of, crossing);
   std::erase(times, 0.0);
   return times;
 }
@@ -227,24 +217,23 @@ Statistic Tally::cross_time_of_batches(std::size_t of) const {
   return {};
 }
 
+double Tally::mean_at(std::size_t of, std::size_t sample, std::size_t figure) const {
+  const RunningMean& mean = means_[at(of, sample) + figure];
+  return mean.count() > 0 ? mean.mean() : nan;
+}
+
 double Tally::rmse_at(std::size_t of, std::size_t sample, std::size_t axis) const {
-  return std::sqrt(sum(of, sample, squared + axis) / runs());
+  return std::sqrt(mean_at(of, sample, squared + axis));
 }
 
 double Tally::half_width_at(std::size_t of, std::size_t sample, std::size_t axis) const {
-  const RunningMean& spread = spread_[3 * (of * experiment.samples() + sample) + axis];
-  return spread.interval().half_width / (2.0 * rmse_at(of, sample, axis));  // delta method
-}
-
-double Tally::mean_at(std::size_t of, std::size_t sample, BySample figure) const {
-  const double count = figure == nis ? sum(of, sample, nis_count) : runs();
-  return count > 0.0 ? sum(of, sample, figure) / count : nan;
+  const RunningMean& mean = means_[at(of, sample) + axis];
+  return mean.count() > 0 ? mean.interval().half_width / (2.0 * rmse_at(of, sample, axis)) : nan;  // delta method
 }
 
 std::vector<double> Tally::weights(std::size_t of, std::size_t sample) const {
-  std::vector<double> all;
-  for (std::size_t j = 0; j < filter(of)->models.size() && sum(of, sample, weight_count) > 0.0; ++j)
-    all.push_back(sum(of, sample, weight + j) / runs());
+  auto all = each_below(filter(of)->models.size(), [&](std::size_t j) { return mean_at(of, sample, weight + j); });
+  std::erase_if(all, [](double one) { return std::isnan(one); });
   return all;
 }
 
@@ -266,18 +255,16 @@ double Tally::peak_rmse(std::size_t of, std::size_t axis) const {
 }
 
 double Tally::mean_of(std::size_t of, BySample figure, std::optional<std::size_t> phase) const {
-  double sums = 0.0, samples = 0.0;
-  for (const Phase& each : experiment.scenario.phases) {
-    const auto total = [&](std::size_t what) {
-      return phase_mean(each, [&](std::size_t k) { return sum(of, k, what); });
-    };
-    const double mean = total(figure) / (figure == nis ? total(nis_count) : runs());
-    if (phase && &each == &experiment.scenario.phases[*phase]) return mean;
-    const double length = each.last - each.first + 1;
-    sums += length * mean;
+  double sum = 0.0, samples = 0.0;
+  for (std::size_t p = phase.value_or(0); p <= phase.value_or(2); ++p) {
+    const Phase& one = experiment.scenario.phases[p];
+    const auto count = [&](std::size_t k) { return static_cast<double>(means_[at(of, k) + figure].count()); };
+    const auto total = [&](std::size_t k) { return count(k) > 0.0 ? count(k) * mean_at(of, k, figure) : 0.0; };
+    const double length = one.last - one.first + 1;
+    sum += length * phase_mean(one, total) / phase_mean(one, count);
     samples += length;
   }
-  return sums / samples;
+  return sum / samples;
 }
 
 }  // namespace sigmax::apps

@@ -11,15 +11,15 @@ namespace sigmax::apps {
 
 struct View;
 
-/// One filter in one run, sample by sample; NaN where there is no estimate. The measurement has errors alone.
-struct Trace {
-  std::size_t samples;
-  std::vector<Vector<3>> error = std::vector<Vector<3>>(samples, Vector<3>::Constant(nan));  ///< of the position
-  /// Of the position, as the filter states it.
-  std::vector<SquareMatrix<3>> covariance = std::vector<SquareMatrix<3>>(samples, SquareMatrix<3>::Constant(nan));
-  std::vector<double> nees_position = std::vector(samples, nan), nees_velocity = nees_position, nis = nees_position;
-  std::vector<std::vector<double>> weights = std::vector<std::vector<double>>(samples);
+/// One filter at one sample; NaN where there is no estimate. The measurement has errors alone.
+struct Sample {
+  Vector<3> error = Vector<3>::Constant(nan);                   ///< of the position
+  SquareMatrix<3> covariance = SquareMatrix<3>::Constant(nan);  ///< of the position, as the filter states it
+  double nees_position = nan, nees_velocity = nan;
+  double nis = nan;  ///< NaN, too, where the gate turned the measurement away
+  std::vector<double> weights{};
 };
+using Trace = std::vector<Sample>;
 
 /// A run of the experiment: the target, and the traces of the measurement and of each filter.
 struct TracedRun {
@@ -52,7 +52,7 @@ Experiment experiment_of(Preset preset, int scenario_number, int group_number, c
 /// What the experiment's radar saw, sample by sample, as the filter takes it; the tag is the sample, from 0.
 std::vector<AnyPlot> plots_of(const FilterSettings& filter, double step_s, std::span<const Polar> seen);
 
-/// What runs of an experiment add up to: figures by batch of runs, so that their statistics are paired, and sums by
+/// What runs of an experiment add up to: figures by batch of runs, so that their statistics are paired, and means by
 /// sample. All is told of the measurement, number 0, and of the filters from number 1 on; samples and phases are
 /// counted from 0.
 ///
@@ -74,10 +74,10 @@ class Tally {
     figures = curve + 16
   };
 
-  /// Sums by sample.
-  enum BySample : std::size_t { squared = 0, nees_position = 3, nees_velocity, nis, nis_count, weight_count, weight };
+  /// Means by sample: the squared errors by axis, NEES and NIS, and the weights of the models.
+  enum BySample : std::size_t { squared = 0, nees_position = 3, nees_velocity, nis, weight };
 
-  /// With sums by sample a row is to be of one run.
+  /// With means by sample a row is to be of one run.
   explicit Tally(Experiment experiment, bool by_sample = false);
 
   /// The runs first … last − 1; any thread may call it.
@@ -107,17 +107,16 @@ class Tally {
   std::vector<double> cross_times(std::size_t of) const;
   Statistic cross_time_of_batches(std::size_t of) const;
 
-  /// @{
-  /// By sample: RMSE along an axis, with its half width at 95 % confidence; the mean NEES or NIS; the models' weights
-  /// as they are told of it, empty before the first estimate; where the averaged weights cross.
+  /// By sample: a mean over the runs, NaN before the first estimate; the RMSE along an axis, with its half width at 95
+  /// % confidence; the models' mean weights as they are told of it, or none.
+  double mean_at(std::size_t of, std::size_t sample, std::size_t figure) const;
   double rmse_at(std::size_t of, std::size_t sample, std::size_t axis) const;
   double half_width_at(std::size_t of, std::size_t sample, std::size_t axis) const;
-  double mean_at(std::size_t of, std::size_t sample, BySample figure) const;
   std::vector<double> weights_at(std::size_t of, std::size_t sample) const;
+
+  /// Over samples: where the averaged weights cross, the greatest RMSE along an axis, and the mean NEES or NIS of a
+  /// phase or of all: 3 if consistent, 6 with the velocity.
   std::optional<double> cross_time_of_curves(std::size_t of) const;
-  /// @}
-  /// The greatest RMSE along an axis, and the mean NEES or NIS of a phase or of all: 3 if consistent, 6 with the
-  /// velocity.
   double peak_rmse(std::size_t of, std::size_t axis) const;
   double mean_of(std::size_t of, BySample figure, std::optional<std::size_t> phase = std::nullopt) const;
 
@@ -126,15 +125,13 @@ class Tally {
  private:
   void add_figures(const Trace& trace, std::size_t of, double* sums) const;
   std::size_t at(std::size_t of, std::size_t sample) const { return (of * experiment.samples() + sample) * width_; }
-  double sum(std::size_t of, std::size_t sample, std::size_t figure) const { return sums_[at(of, sample) + figure]; }
-  double runs() const;
+  const std::vector<double>& column(std::size_t of, std::size_t figure) const;
   std::vector<double> weights(std::size_t of, std::size_t sample) const;
 
   std::vector<std::optional<std::size_t>> manoeuvre_;  // the model that stands for it
-  std::size_t width_ = 0;                              // of the sums of a sample
+  std::size_t width_ = 0;                              // of the means of a sample
   std::vector<std::vector<double>> columns_;           // by batch: how many runs, then figures
-  std::vector<double> sums_;                           // over the runs, in their order
-  std::vector<RunningMean> spread_;                    // of squared errors, by sample and axis
+  std::vector<RunningMean> means_;                     // over the runs, in their order
 };
 
 /// So many filters that not all can be told apart at once.

@@ -24,46 +24,49 @@ std::vector<double> by_sample(const Tally& tally, const Value& value) {
   return each_below(tally.experiment.samples(), value);
 }
 
-LineChart chart(const Tally& tally, std::string title, std::string y_label) {
+/// A curve of value(of, sample) for each from a first one on.
+template <class Value>
+LineChart chart(const Tally& tally, std::string title, std::string y_label, std::size_t first, const Value& value) {
   const Phase& manoeuvre = tally.experiment.scenario.phases[1];
-  return {.title = std::move(title),
-          .x_label = "sample",
-          .y_label = std::move(y_label),
-          .x = by_sample(tally, [](std::size_t k) { return static_cast<double>(k + 1); }),
-          .shaded = {{static_cast<double>(manoeuvre.first), static_cast<double>(manoeuvre.last), "manoeuvre"}}};
+  LineChart made{.title = std::move(title),
+                 .x_label = "sample",
+                 .y_label = std::move(y_label),
+                 .x = by_sample(tally, [](std::size_t k) { return static_cast<double>(k + 1); }),
+                 .shaded = {{static_cast<double>(manoeuvre.first), static_cast<double>(manoeuvre.last), "manoeuvre"}}};
+  for (std::size_t of = first; of < tally.size(); ++of)
+    made.curves.push_back(
+        {tally.name(of), tally.name(of), by_sample(tally, [&](std::size_t k) { return value(of, k); })});
+  return made;
 }
 
 LineChart rmse_chart(const Tally& tally, std::size_t axis) {
-  LineChart made = chart(tally, fmt::format("RMSE in {}", axis_names[axis]), "RMSE, m");
+  LineChart made = chart(tally, fmt::format("RMSE in {}", axis_names[axis]), "RMSE, m", 0,
+                         [&](std::size_t of, std::size_t k) { return tally.rmse_at(of, k, axis); });
+  if (crowded(tally.experiment)) return made;
   for (std::size_t of = 0; of < tally.size(); ++of) {
     const auto shifted = [&](double widths) {
-      return by_sample(tally, [&](std::size_t k) {
-        return tally.rmse_at(of, k, axis) + (widths == 0.0 ? 0.0 : widths * tally.half_width_at(of, k, axis));
-      });
+      return by_sample(
+          tally, [&](std::size_t k) { return tally.rmse_at(of, k, axis) + widths * tally.half_width_at(of, k, axis); });
     };
-    Curve& curve = made.curves.emplace_back(Curve{tally.name(of), tally.name(of), shifted(0.0)});
-    if (crowded(tally.experiment)) continue;
-    curve.lower = shifted(-1.0);
-    curve.upper = shifted(1.0);
+    made.curves[of].lower = shifted(-1.0);
+    made.curves[of].upper = shifted(1.0);
   }
-  if (tally.experiment.runs > 1 && !crowded(tally.experiment))
-    made.note = "Bands: 95 % confidence of the RMSE over the runs.";
+  if (tally.experiment.runs > 1) made.note = "Bands: 95 % confidence of the RMSE over the runs.";
   return made;
 }
 
 LineChart error_chart(const Tally& tally, const TracedRun& run, std::size_t axis) {
-  LineChart made = chart(tally, fmt::format("Error in {}", axis_names[axis]), "error, m");
-  for (std::size_t of = 0; of < tally.size(); ++of) {
-    const auto error = [&](std::size_t k) { return run.traces[of].error[k](static_cast<Eigen::Index>(axis)); };
-    made.curves.push_back(
-        {.name = tally.name(of), .group = tally.name(of), .values = by_sample(tally, error), .dots = of == 0});
-  }
+  LineChart made =
+      chart(tally, fmt::format("Error in {}", axis_names[axis]), "error, m", 0,
+            [&](std::size_t of, std::size_t k) { return run.traces[of][k].error(static_cast<Eigen::Index>(axis)); });
+  made.curves[0].dots = true;
   return made;
 }
 
 /// A curve of each filter and model; the dash tells the model.
 LineChart weights_chart(const Tally& tally, const std::string& mean) {
-  LineChart made = chart(tally, "Mode weights", mean + "probability (IMM) or possibility (HIMM)");
+  LineChart made = chart(tally, "Mode weights", mean + "probability (IMM) or possibility (HIMM)", tally.size(),
+                         [](std::size_t, std::size_t) { return nan; });
   made.greatest_y = 1.05;
   const std::vector<std::string> models = model_names(tally.experiment.filters);
   for (std::size_t of = 1; of < tally.size(); ++of) {
@@ -84,12 +87,10 @@ LineChart weights_chart(const Tally& tally, const std::string& mean) {
 }
 
 LineChart consistency_chart(const Tally& tally, const char* title, const std::string& y_label, Tally::BySample figure) {
-  LineChart made = chart(tally, title, y_label);
+  LineChart made =
+      chart(tally, title, y_label, 1, [&](std::size_t of, std::size_t k) { return tally.mean_at(of, k, figure); });
   const Band band = chi_square_band(3, tally.experiment.runs);
   made.expected = {{band.lower, band.upper, "95 % if consistent"}};
-  for (std::size_t of = 1; of < tally.size(); ++of)
-    made.curves.push_back({tally.name(of), tally.name(of),
-                           by_sample(tally, [&](std::size_t k) { return tally.mean_at(of, k, figure); })});
   keep_usual(made);
   return made;
 }
@@ -98,7 +99,7 @@ LineChart consistency_chart(const Tally& tally, const char* title, const std::st
 Plan plan(const Tally& tally, const TracedRun& run, std::size_t number) {
   Plan plan{.title = fmt::format("Track of run {}", number), .x_label = "x, m", .y_label = "y, m"};
   const auto seen_by = [&](std::size_t of, std::size_t k) -> Vector<3> {
-    return run.truth[k].head<3>() + run.traces[of].error[k];
+    return run.truth[k].head<3>() + run.traces[of][k].error;
   };
   const auto add = [&](const std::string& name, PlanTrace::Shape shape, const auto& at) {
     const auto along = [&](Eigen::Index axis) { return by_sample(tally, [&](std::size_t k) { return at(k)(axis); }); };
@@ -109,7 +110,7 @@ Plan plan(const Tally& tally, const TracedRun& run, std::size_t number) {
         [&](std::size_t k) { return seen_by(of, k); });
     if (of == 0) add(truth_name, PlanTrace::Shape::line, [&](std::size_t k) -> Vector<6> { return run.truth[k]; });
     for (std::size_t k = 4; of > 0 && !crowded(tally.experiment) && k < run.truth.size(); k += 5)
-      if (const auto& covariance = run.traces[of].covariance[k]; !std::isnan(covariance(0, 0)))
+      if (const auto& covariance = run.traces[of][k].covariance; !std::isnan(covariance(0, 0)))
         plan.ellipses.push_back(error_ellipse(tally.name(of), seen_by(of, k), covariance));
   }
   // The corners of the target's way from a little before the manoeuvre on.
