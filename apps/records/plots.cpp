@@ -7,17 +7,19 @@ namespace sigmax::apps {
 
 std::optional<Position> position_of(const AnyPlot& plot, int axes) {
   if (axes_seen(plot, axes) == 0) return std::nullopt;
-  if (plot.sensor == AnyPlot::Sensor::components || plot.sensor == AnyPlot::Sensor::position)
-    return Position{component_of(plot, 0).value_or(0.0), axes > 1 ? component_of(plot, 1).value_or(0.0) : 0.0,
-                    axes > 2 ? component_of(plot, 2).value_or(0.0) : 0.0};
-  const double range = plot.z[0], azimuth = plot.z[1], elevation = axes_seen(plot, axes) == 3 ? plot.z[2] : 0.0;
-  const double ground = range * std::cos(elevation);
-  return Position{plot.origin[0] + ground * std::cos(azimuth), plot.origin[1] + ground * std::sin(azimuth),
-                  plot.origin[2] + range * std::sin(elevation)};
+  const bool is_seen = plot.sensor == AnyPlot::Sensor::polar || plot.sensor == AnyPlot::Sensor::doppler;
+  const Vector<3> from = to_cartesian({plot.z[0], plot.z[1], axes_seen(plot, axes) == 3 ? plot.z[2] : 0.0});
+  Position at = plot.origin;
+  for (int i = 0; i < axes; ++i)
+    at[static_cast<std::size_t>(i)] =
+        is_seen ? at[static_cast<std::size_t>(i)] + from[i] : component_of(plot, i).value_or(0.0);
+  return at;
 }
 
-Sighting measured(Sighting exact, const Sighting& sigma, RandomStream& random) {
-  for (const std::size_t i : {1U, 2U, 0U}) exact[i] += sigma[i] * random.normal();
+Polar measured(Polar exact, const Polar& sigma, RandomStream& random) {
+  exact.azimuth += sigma.azimuth * random.normal();
+  exact.elevation += sigma.elevation * random.normal();
+  exact.range += sigma.range * random.normal();
   return exact;
 }
 
@@ -37,17 +39,16 @@ void see_by_radar(Row& row, const std::optional<Position>& position, int axes, c
   }
   const auto& sigma = *radar.sigma;
   const Position at = radar.place();
-  const double x = (*position)[0] - at[0], y = (*position)[1] - at[1], z = (*position)[2] - at[2];
-  const double ground = std::hypot(x, y);
-  const Sighting seen = measured({std::hypot(ground, z), std::atan2(y, x), std::atan2(z, ground)},
-                                 {sigma[0], sigma[1] * degree, sigma[2] * degree}, random);
-  if (!(seen[0] > 0.0))
+  const Polar seen = measured(to_polar(Vector<3>(position->data()) - Vector<3>(at.data())),
+                              {sigma[0], sigma[1] * degree, sigma[2] * degree}, random);
+  if (!(seen.range > 0.0))
     throw InputError(
         "{}:{}: the simulated radar: found a range of {} m, expected a positive one; put the radar farther from the "
         "track with --radar-at=E,N,U",
-        file, row.line, shortest(seen[0]));
+        file, row.line, shortest(seen.range));
   row.truth = position;
-  row.plot = AnyPlot::polar(row.plot.time, seen, std::array{nan, nan, nan}, at);
+  row.plot = AnyPlot::polar(row.plot.time, std::array{seen.range, seen.azimuth, seen.elevation},
+                            std::array{nan, nan, nan}, at);
 }
 
 void add_recording(Subcommand app, RecordingOptions& recording, RadarOptions& radar) {

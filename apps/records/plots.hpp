@@ -1,5 +1,7 @@
 #pragma once
 
+#include <sigmax/estimation/radar.hpp>
+
 #include "records/recording.hpp"
 #include "shell/command_line.hpp"
 
@@ -7,15 +9,12 @@ namespace sigmax::apps {
 
 class RandomStream;
 
-/// Range in m, azimuth and elevation in rad.
-using Sighting = std::array<double, 3>;
-
 /// The position that a plot tells, a radar's or of components; 0 along what those do not have, nothing if there is
 /// none.
 std::optional<Position> position_of(const AnyPlot& plot, int axes);
 
 /// What a radar with these standard deviations measures.
-Sighting measured(Sighting exact, const Sighting& sigma, RandomStream& random);
+Polar measured(Polar exact, const Polar& sigma, RandomStream& random);
 
 /// A stream of random numbers for each track, whichever others a file holds.
 RandomStream stream_of(std::uint64_t seed, std::string_view track);

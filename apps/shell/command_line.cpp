@@ -297,7 +297,7 @@ int run_command_line(const ProgramOutline& outline, int argc, char** argv) {
   std::ios::sync_with_stdio(false);  // so that a failure to read the standard input shows
   Arguments arguments(argv + 1, argv + argc);
   std::string command = outline.name;
-  for (const std::string& argument : arguments) command += " " + argument;
+  for (const std::string& argument : arguments) command += " " + in_shell(argument);
 
   std::string description = outline.description;
   if (!outline.default_subcommand.empty())

@@ -118,4 +118,10 @@ std::string lower_case(std::string_view text) {
   return result;
 }
 
+std::string in_shell(std::string_view word) {
+  if (word.find_first_of(" \"'#?*!$&|;<>()[]{}~`\\") == word.npos) return std::string(word);
+  const bool takes_single = word.find('\'') == word.npos || word.find_first_of("$`\\!\"") != word.npos;
+  return fmt::format("{0}{1}{0}", takes_single ? '\'' : '"', word);
+}
+
 }  // namespace sigmax::apps

@@ -109,4 +109,7 @@ std::string suggestion(std::string_view word, const Words& known, std::string_vi
   return !text.empty() || known.empty() ? text : fmt::format("the known ones are {}", fmt::join(known, ", "));
 }
 
+/// A word as a shell takes it.
+std::string in_shell(std::string_view word);
+
 }  // namespace sigmax::apps

@@ -94,12 +94,6 @@ std::string listed(std::span<const std::string> names, std::size_t most) {
   return names.size() > most ? text + ", …" : text;
 }
 
-std::string in_shell(std::string_view word) {
-  if (word.find_first_of(" \"'#?*!$&|;<>()[]{}~`\\") == word.npos) return std::string(word);
-  const bool takes_single = word.find('\'') == word.npos || word.find_first_of("$`\\!\"") != word.npos;
-  return fmt::format("{0}{1}{0}", takes_single ? '\'' : '"', word);
-}
-
 std::string typed(std::string_view word) { return in_shell(csv_field(word)); }
 
 std::string csv_field(std::string_view text) {

@@ -118,9 +118,6 @@ std::string csv_field(std::string_view text);
 /// The first of some names, each as such a field: blue, "red, dark", …
 std::string listed(std::span<const std::string> names, std::size_t most);
 
-/// A word as a shell takes it.
-std::string in_shell(std::string_view word);
-
 /// A word of a list on the command line as it is typed: '"12,5"'.
 std::string typed(std::string_view word);
 

@@ -47,10 +47,7 @@ Recording simulate(const Scenario& scenario, const Polar& sigma, RandomStream& r
   state << scenario.position, scenario.velocity;
   for (int k = 1; k <= scenario.samples(); ++k) {
     recording.truth.push_back(state);
-    const Polar exact = to_polar(state.head<3>());
-    const auto [range, azimuth, elevation] =
-        measured({exact.range, exact.azimuth, exact.elevation}, {sigma.range, sigma.azimuth, sigma.elevation}, random);
-    recording.measured.push_back({range, azimuth, elevation});
+    recording.measured.push_back(measured(to_polar(state.head<3>()), sigma, random));
     Vector<3> acceleration = Vector<3>::Zero();
     if (k >= scenario.onset() && k <= scenario.last_accelerated) acceleration = scenario.acceleration;
     Vector<3> noise;

@@ -1,13 +1,10 @@
+#include <regex>
 #include <sigmax/estimation/chi_square.hpp>
 
 #include "himm_demo/track/track.hpp"
 
 namespace sigmax::apps {
 namespace {
-
-std::string joined(const std::optional<std::array<double, 3>>& numbers) {
-  return numbers ? fmt::format("{}", fmt::join(each(*numbers, shortest), ",")) : "";
-}
 
 /// What the rules judge by.
 struct Evidence {
@@ -19,25 +16,15 @@ struct Evidence {
 
   const std::string& file() const { return recording.file(); }
 
-  /// The command that fits the noise to the recording, read as it was.
+  /// The command that fits the noise to the recording, read as it was: by this one's options that tune has, too.
   std::string tune() const {
-    const RecordingOptions& own = options.recording;
-    const std::vector<std::string>& sets = options.filters.sets;
-    constexpr std::array from = {"", "east", "north", "ahead"};
-    using Given = std::pair<std::string_view, std::vector<std::string>>;
-    std::string words = "himm_demo tune " + in_shell(own.file);
-    for (const auto& [option, given] :
-         {Given{"columns", each(own.columns, csv_field)}, Given{"missing", each(own.missing, csv_field)},
-          Given{"select", own.select}, Given{"time-format", {own.time_format}}, Given{"track-id", {own.track_id}},
-          Given{"on-bad-time", {own.skip_bad_times ? "skip" : ""}},
-          Given{"azimuth-from", {from[own.azimuth_from ? 1 + static_cast<std::size_t>(*own.azimuth_from) : 0]}},
-          Given{"origin", {joined(own.origin)}}, Given{"radar", {joined(options.radar.sigma)}},
-          Given{"radar-at", {joined(options.radar.at)}}, Given{"config", {options.filters.config}}, Given{"set", sets}})
-      for (const std::string& word : given)
-        if (!word.empty()) words += fmt::format(" --{}{}{}", option, word[0] == '-' ? "=" : " ", in_shell(word));
-    const bool others = !sets.empty() || !options.filters.config.empty();
+    static const std::regex others(
+        " --(out|report|predict-to)[ =]('[^']*'|\"[^\"]*\"|[^ ]*)| --(quiet|wide|iso-times)\\b");
+    std::string words = std::regex_replace(options.output.command, others, "");
+    words.replace(words.find(" track "), 7, " tune ");
+    const bool has_settings = !options.filters.sets.empty() || !options.filters.config.empty();
     return fmt::format("fit it by {} --out best.toml, and give --config best.toml{}", words,
-                       others ? " instead of these settings" : "");
+                       has_settings ? " instead of these settings" : "");
   }
 };
 
