@@ -68,6 +68,7 @@ class TrackPage {
   };
   using Named = std::pair<const std::string, Track>;
 
+  static double longest_step(const std::vector<double>& times);
   Track* track_of(const Row& row);
   void mark(const Row& row, std::size_t filter, bool rejection);
   std::vector<const Named*> longest_first() const;

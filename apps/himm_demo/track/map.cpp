@@ -1,0 +1,155 @@
+// The map of a track, and of all, with parallels and meridians.
+
+#include "himm_demo/track/page.hpp"
+#include "himm_demo/track/track.hpp"
+
+namespace sigmax::apps {
+namespace {
+
+constexpr std::size_t most_on_map = 8000;  // places of all tracks together
+
+/// A round number of degrees that parts a range into three to seven.
+double round_step(double range) {
+  const double power = std::pow(10.0, std::floor(std::log10(range / 7.0)));
+  return power * (range <= 14.0 * power ? 2.0 : range <= 35.0 * power ? 5.0 : 10.0);
+}
+
+/// Parallels and meridians about a place that cross what a map shows, at round degrees.
+std::vector<GraticuleLine> graticule(const Geodetic& anchor, const Plan& plan) {
+  const auto [least_x, greatest_x, least_y, greatest_y] = plan.bounds();
+  const double half = 0.6 * std::max(greatest_x - least_x, greatest_y - least_y);
+  if (!(half > 1e-3)) return {};
+  const LocalFrame frame(anchor, 2);
+  std::array<double, 2> least{90.0, 540.0}, greatest{-90.0, -540.0};  // latitude, longitude
+  for (const double east : {-2.0, 0.0, 2.0})                          // a map may be twice as wide as it is high
+    for (const double north : {-1.0, 1.0}) {
+      const Geodetic place =
+          frame.to_geodetic({0.5 * (least_x + greatest_x) + east * half, 0.5 * (least_y + greatest_y) + north * half});
+      // The meridian of 180° is no border here.
+      const double longitude = anchor.longitude_deg + std::remainder(place.longitude_deg - anchor.longitude_deg, 360.0);
+      least = {std::min(least[0], place.latitude_deg), std::min(least[1], longitude)};
+      greatest = {std::max(greatest[0], place.latitude_deg), std::max(greatest[1], longitude)};
+    }
+  std::vector<GraticuleLine> lines;
+  for (const std::size_t i : {0U, 1U}) {
+    const double step = round_step((greatest[i] - least[i]) / (1.0 + 0.5 * static_cast<double>(i)));
+    for (double round = std::ceil(least[i] / step) * step; round <= greatest[i]; round += step) {
+      const double shown = std::remainder(round, 360.0);
+      GraticuleLine line{fmt::format("{:.6g}° {}", std::abs(shown), "NSEW"[2 * i + (shown < 0.0 ? 1 : 0)]), {}, {}};
+      for (int k = 0; k <= 24; ++k) {
+        const double along = least[1 - i] + (greatest[1 - i] - least[1 - i]) * k / 24.0;
+        const Position at = frame.to_local(i == 0 ? Geodetic{round, along, 0.0} : Geodetic{along, round, 0.0});
+        line.x.push_back(at[0]);
+        line.y.push_back(at[1]);
+      }
+      lines.push_back(std::move(line));
+    }
+  }
+  return lines;
+}
+
+void add(const Position& at, bool high, PlanTrace& trace) {
+  trace.x.push_back(at[0]);
+  trace.y.push_back(at[1]);
+  if (high) trace.z.push_back(at[2]);
+}
+
+/// Least and greatest x and y of all but the outermost places, with a margin, where those are so many times as far.
+std::vector<double> usual_bounds(const Plan& plan, double times) {
+  std::vector<double> bounds;
+  bool far = false;
+  for (const auto axis : {&PlanTrace::x, &PlanTrace::y}) {
+    std::vector<double> values;
+    for (const PlanTrace& one : plan.traces) values.insert(values.end(), (one.*axis).begin(), (one.*axis).end());
+    std::erase_if(values, [](double value) { return std::isnan(value); });  // gaps
+    if (values.empty()) return {};
+    std::ranges::sort(values);
+    const std::size_t cut = values.size() / 50;
+    const double least = values[cut], greatest = values[values.size() - 1 - cut], margin = 0.2 * (greatest - least);
+    far |= values.back() - values.front() > times * (greatest - least + 2.0 * margin);
+    bounds.insert(bounds.end(), {least - margin, greatest + margin});
+  }
+  return far ? bounds : std::vector<double>{};
+}
+
+}  // namespace
+
+/// Gives a trace every so many places by their columns; the line breaks where none is known for long.
+PlanTrace TrackPage::traced(PlanTrace made, const Track& track, std::size_t from, std::size_t every) const {
+  const auto x = track.rows.column(from), y = track.rows.column(from + 1), z = track.rows.column(from + 2);
+  const auto times = track.rows.times();
+  const double longest = static_cast<double>(every) * longest_step(times);
+  double before = nan;
+  for (std::size_t k = 0; k < x.size(); ++k) {
+    if ((k % every != 0 && k + 1 != x.size()) || std::isnan(x[k]) || std::isnan(y[k])) continue;
+    if (times[k] - before > longest) add({nan, nan, nan}, recording_.axes() == 3, made);
+    before = times[k];
+    add({x[k], y[k], z[k]}, recording_.axes() == 3, made);
+  }
+  return made;
+}
+
+Plan TrackPage::plan(const std::string& name, const Track& track) const {
+  const bool geodetic = track.anchor.has_value();
+  Plan plan{.title = name == "all rows" ? "Track" : "Track " + name,
+            .x_label = geodetic ? "east, m" : "x, m",
+            .y_label = geodetic ? "north, m" : "y, m"};
+  const auto put = [&](PlanTrace made) {
+    if (!made.x.empty()) plan.traces.push_back(std::move(made));
+  };
+  put(traced({measurement_name, measurement_name, PlanTrace::Shape::dots}, track, plot_at));
+  if (truth_known_) put(traced({truth_name, truth_name}, track, truth_at));
+  for (std::size_t f = 0; f < filters_.size(); ++f)
+    put(traced({filters_[f].name, filters_[f].name}, track, column(f, position_at)));
+  const auto crosses = [&](const std::string& what, const std::vector<Mark>& marks) {
+    for (std::size_t f = 0; f < filters_.size(); ++f) {
+      PlanTrace made{what + filters_[f].name, filters_[f].name, PlanTrace::Shape::crosses};
+      for (const Mark& mark : marks)
+        if (mark.filter == f) add(mark.position, recording_.axes() == 3, made);
+      put(std::move(made));
+    }
+  };
+  for (const auto& [at, names] : stations_)
+    plan.traces.push_back({list_of(names), measurement_name, PlanTrace::Shape::crosses, {at[0]}, {at[1]}});
+  crosses("rejected by ", track.rejections);
+  crosses("restart of ", track.restarts);
+  if (track.rejections.size() == most_marks || track.restarts.size() == most_marks)
+    plan.note = fmt::format("Only the first {} rejections and restarts are marked.", most_marks);
+  plan.focus = usual_bounds(plan, 10.0);
+  if (geodetic) plan.graticule = graticule(*track.anchor, plan);
+  return plan;
+}
+
+/// A line for each track, or its measurements where there is no estimate; in one frame, and with fewer places.
+Plan TrackPage::map_of_all() const {
+  const bool geodetic = recording_.on_the_earth();
+  Plan plan{.title = "All tracks",
+            .x_label = geodetic ? "east, m" : "x, m",
+            .y_label = geodetic ? "north, m" : "y, m",
+            .note = "A click on a track opens it."};
+  const std::size_t step = 1 + kept_ / most_on_map;
+  std::optional<LocalFrame> frame;
+  for (const Named* const one : longest_first()) {
+    const auto& [name, track] = *one;
+    const bool followed = track.estimates > 0;
+    PlanTrace made{.name = name, .shape = followed ? PlanTrace::Shape::line : PlanTrace::Shape::dots};
+    made = traced(std::move(made), track, followed ? column(0, position_at) : plot_at, step);
+    if (track.anchor) {
+      const LocalFrame own(*track.anchor, recording_.axes());
+      if (!frame) frame = own;
+      for (std::size_t k = 0; k < made.x.size(); ++k) {
+        const double z = made.z.empty() || std::isnan(made.z[k]) ? 0.0 : made.z[k];
+        const Position at = frame->to_local(own.to_geodetic({made.x[k], made.y[k], z}));
+        made.x[k] = at[0];
+        made.y[k] = at[1];
+      }
+    }
+    made.z.clear();
+    if (!made.x.empty()) plan.traces.push_back(std::move(made));
+  }
+  plan.focus = usual_bounds(plan, 2.0);
+  if (frame) plan.graticule = graticule(frame->origin(), plan);
+  return plan;
+}
+
+}  // namespace sigmax::apps
