@@ -1,4 +1,4 @@
-#include "recognition_demo/emitters.hpp"
+#include "recognition_demo/esm.hpp"
 
 #include <sigmax/core/transform.hpp>
 #include <sigmax/recognition/counts.hpp>
