@@ -54,9 +54,9 @@ std::optional<Geodetic> place_of(const AnyPlot& plot, int axes, double altitude_
 }
 
 AnyPlot in_frame(AnyPlot plot, const LocalFrame& frame, const Position& at, int axes) {
-  Vector<Eigen::Dynamic, 3> v = Vector<Eigen::Dynamic, 3>::Zero(axes);
+  Vector<3> v = Vector<3>::Zero();
   for (int i = 0; i < axes; ++i) v[i] = component_of(plot, axes + i).value_or(0.0);
-  if (is_moving(plot, axes)) v = (local_axes(frame, at, axes).transpose() * v).eval();
+  if (is_moving(plot, axes)) v = (local_axes(frame, at, 3).transpose() * v).eval();
   for (std::size_t i = 0; i < static_cast<std::size_t>(plot.size); ++i) {
     const int place = plot.sensor == AnyPlot::Sensor::position ? static_cast<int>(i) : plot.places[i];
     plot.z[i] = place < axes ? at[static_cast<std::size_t>(place)] : v[place - axes];
