@@ -15,7 +15,6 @@ Result result_of_contest(std::string title, const OutputOptions& output, const s
 
 std::vector<Panel> relation_maps(const TableModel& model) {
   constexpr std::ptrdiff_t most = 6;
-  constexpr std::size_t most_values = 30;  // of a feature, and classes
   // How far the patterns differ about a feature: the mean distance of two patterns' distributions.
   const auto telling = [](const Relation<Random, Random>& relation) {
     double distance = 0.0;
@@ -26,7 +25,10 @@ std::vector<Panel> relation_maps(const TableModel& model) {
     return distance;
   };
   auto all = learned_relations(model.counts, model.options.smoothing);
-  std::erase_if(all, [](const auto& one) { return std::max(one.to().size(), one.from().size()) > most_values; });
+  std::erase_if(all, [](const auto& one) {
+    constexpr std::size_t most_values = 30;  // of a feature, and classes
+    return std::max(one.to().size(), one.from().size()) > most_values;
+  });
   std::ranges::stable_sort(all, std::greater{}, telling);
   if (std::ssize(all) > most) all.erase(all.begin() + most, all.end());
   return each(all, [](const auto& relation) {

@@ -36,7 +36,9 @@ struct Node {
     if (!is_right) throw error(expected);
     return json.get<Value>();
   }
-  std::string text() const { return as<std::string>(json.is_string() && json != "", "a text that is not empty"); }
+  std::string text() const {
+    return as<std::string>(json.is_string() && !json.get<std::string>().empty(), "a text that is not empty");
+  }
   bool boolean() const { return as<bool>(json.is_boolean(), "true or false"); }
   double number() const { return as<double>(json.is_number(), "a number"); }
   double number(double least, double below, std::string_view expected) const {
