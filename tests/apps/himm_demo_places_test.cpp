@@ -4,8 +4,6 @@
 
 namespace himm_demo_places_test {
 
-constexpr double equator = 6378137.0;
-
 TEST(HimmDemoPlaces, TwoShipsOfOneFileAreOnTheirHemispheres) {
   std::string text = "time_s,ship,latitude_deg,longitude_deg\n";
   for (int k = 0; k < 40; ++k) {
@@ -34,31 +32,6 @@ TEST(HimmDemoPlaces, AnOriginFarAwayMovesNoShip) {
     EXPECT_NEAR(number(row.at("vx_mps")), 10.02, 0.6);
     EXPECT_GT(number(row.at("x_m")), 1.3e7);
   }
-}
-
-TEST(HimmDemoPlaces, AShipThatGoesAroundTheEarthKeepsItsSpeed) {
-  const auto text = recording(
-      "time_s,latitude_deg,longitude_deg",
-      [](int k) { return exact(1000.0 * k) + ",0," + exact(1e4 * k / equator / degree); }, 450);
-  const auto found = estimates(text, {"sigma_w=0.0001", "models=dwna"});
-  ASSERT_EQ(found.size(), 2U * 447U);
-  for (const auto& row : found) {
-    EXPECT_NEAR(number(row.at("vx_mps")), 10.0, 0.02) << row.at("time_s");
-    EXPECT_NEAR(number(row.at("vy_mps")), 0.0, 0.02);
-    EXPECT_NEAR(number(row.at("longitude_deg")), number(row.at("time_s")) * 10.0 / equator / degree, 2e-4);
-  }
-}
-
-TEST(HimmDemoPlaces, LevelFlightClimbsNowhere) {
-  std::string text = "time_s,latitude_deg,longitude_deg,altitude_m\n";
-  for (int k = 0; k < 400; ++k)  // 800 km along a parallel at 60°
-    text += exact(10.0 * k) + ",60," + exact(2000.0 * k / (equator * 0.5) / degree) + ",10000\n";
-  for (const char* smooth : {"false", "true"})
-    for (const auto& row : estimates(text, {"sigma_w=0.05", std::string("smooth=") + smooth})) {
-      EXPECT_NEAR(number(row.at("vz_mps")), 0.0, 0.6) << row.at("time_s");
-      EXPECT_NEAR(number(row.at("altitude_m")), 10000.0, 30.0);
-      EXPECT_NEAR(number(row.at("latitude_deg")), 60.0, 5e-4);
-    }
 }
 
 }  // namespace himm_demo_places_test

@@ -92,8 +92,8 @@ void read(const std::string& file, const TuneOptions& options, const FilterSetti
     std::size_t place;
     RandomStream random;
     std::optional<LocalFrame> frame{};
-    double altitude_m = nan;       // the last one
-    std::optional<Position> at{};  // likewise, in the frame, once the altitude is known
+    Geodetic last{nan, nan, nan};  // place, of what rows told
+    std::optional<Position> at{};  // the same in the frame, once it is known
   };
   RecordingOptions of_file = options.recording;
   of_file.file = file;
@@ -120,12 +120,15 @@ void read(const std::string& file, const TuneOptions& options, const FilterSetti
     if (!first && places.frame()) first = places.frame()->origin();
     checks.see(row, places.frame() ? &*places.frame() : nullptr);
     const bool is_place = recording.geodetic() && row.plot.sensor == AnyPlot::Sensor::components;
-    if (const auto start = place_of(row.plot, data.axes); is_place && start) {
-      const Geodetic here = *place_of(row.plot, data.axes, its.altitude_m);
-      if (!first) first = start;
-      if (!its.frame) its.frame.emplace(one_frame ? *first : recording.origin().value_or(*start), data.axes);
-      its.altitude_m = here.altitude_m;
-      if (!std::isnan(here.altitude_m)) its.at = its.frame->to_local(here);
+    if (is_place) {
+      its.last = {component_of(row.plot, 0).value_or(its.last.latitude_deg),
+                  component_of(row.plot, 1).value_or(its.last.longitude_deg),
+                  data.axes == 3 ? component_of(row.plot, 2).value_or(its.last.altitude_m) : 0.0};
+      if (const auto start = place_of(row.plot, data.axes); start && !its.frame) {
+        if (!first) first = start;
+        its.frame.emplace(one_frame ? *first : recording.origin().value_or(*start), data.axes);
+      }
+      if (its.frame && its.last.is_valid()) its.at = its.frame->to_local(its.last);
     }
     if (is_place)
       row.plot = its.at ? in_frame(row.plot, *its.frame, *its.at, data.axes) : AnyPlot::missed(row.plot.time);
