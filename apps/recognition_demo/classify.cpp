@@ -1,5 +1,4 @@
-#include "recognition_demo/contest.hpp"
-#include "recognition_demo/model_file.hpp"
+#include "recognition_demo/learning.hpp"
 #include "shell/progress.hpp"
 
 namespace sigmax::apps {

@@ -2,7 +2,7 @@
 
 #include <sigmax/recognition/folds.hpp>
 
-#include "recognition_demo/model_file.hpp"
+#include "recognition_demo/learning.hpp"
 #include "shell/parallel.hpp"
 #include "shell/progress.hpp"
 

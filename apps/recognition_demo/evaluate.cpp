@@ -1,7 +1,6 @@
 #include "checks/table_checks.hpp"
-#include "recognition_demo/contest.hpp"
 #include "recognition_demo/cross_validation.hpp"
-#include "recognition_demo/model_file.hpp"
+#include "recognition_demo/learning.hpp"
 
 namespace sigmax::apps {
 namespace {

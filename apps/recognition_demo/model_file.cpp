@@ -1,4 +1,4 @@
-#include "recognition_demo/model_file.hpp"
+#include "recognition_demo/learning.hpp"
 
 #include "shell/input.hpp"
 #include "shell/json.hpp"
@@ -195,64 +195,6 @@ SavedModel read_model(const std::filesystem::path& path) {
   }
   auto missing_words = root.has("missing") ? names(root.at("missing"), "words") : std::vector<std::string>();
   return {std::move(model), std::move(kinds), std::move(missing_words)};
-}
-
-std::vector<TableClassifier> classifiers(TableModel model, std::span<const std::string> kinds) {
-  using enum TableInference;
-  const double misread = model.options.misread;
-  for (const TableFeature& feature : model.features)
-    if (const auto n = static_cast<double>(feature.size()); n > 1.0 && n * misread > n - 1.0)
-      throw UsageError(
-          "--misread {0}: feature {1} has {2} values, so that each other one would be read more often than the right "
-          "one: give at most {3:.2f}",
-          misread, in_quotes(feature.name), n, std::floor(100.0 * (n - 1.0) / n) / 100.0);
-  const auto wanted = [&](std::string_view kind) { return std::ranges::find(kinds, kind) != kinds.end(); };
-  const TableClassifier first{std::move(model)};
-  std::vector<TableClassifier> all;
-  if (wanted("sigma")) all.push_back(first);
-  if (wanted("max")) all.insert(all.end(), {first.by(max_by_ratio), first.by(max_by_dubois_prade)});
-  if (wanted("sigma-max") && !wanted("max")) all.push_back(first.by(sigma_max_by_ratio));
-  if (wanted("sigma-max") && !(wanted("max") && misread == 0.0)) all.push_back(first.by(sigma_max_by_dubois_prade));
-  return all;
-}
-
-void add_learning(Subcommand app, std::string& file, TableReading& data, TableOptions& learning) {
-  app.option("data", file, "A headed CSV file, or - for the standard input; empty cells and ? are missing values")
-      .required()
-      .type("DATA");
-  app.option("--label", data.label, "The column with the class").required().type("COLUMN");
-  app.list("--categorical", data.categorical, "Columns to take as words although they hold numbers, or all")
-      .type("COLUMN,…|all");
-  app.list("--ignore", data.ignore, "Columns to leave out").type("COLUMN,…");
-  app.list("--missing", data.missing,
-           "Words that are missing values; - NA N/A nan null inf are so in columns of numbers")
-      .type("WORD,…");
-  app.list("--missing-value", data.missing_value, "Columns of which a missing cell is a value of its own")
-      .type("COLUMN,…");
-  app.option("--bins", learning.bins, "Bins of a numeric column").in(1, 1000);
-  app.flag("--equal-width", learning.equal_width, "Bins of equal width instead of equal frequency");
-  app.option("--smoothing", learning.smoothing, "What is added to every count; 1 is Laplace's rule")
-      .number_in(0.0, 1e9);
-  app.option("--misread", learning.misread,
-             "Probability that a reading is not the feature's value but one of the others")
-      .number_in(0.0, 0.999);
-  app.flag("--equal-prior", learning.equal_prior,
-           "Every class is equally plausible before, whatever its share of the rows");
-}
-
-std::string described(const LabelledTable& data) {
-  const auto features = data.columns.size();
-  const auto numeric = std::ranges::count_if(data.columns, [](const auto& c) { return c.numeric(); });
-  return fmt::format("{} rows, {} classes, {} {} ({} categorical, {} numeric)", data.size(), data.classes.size(),
-                     features, features == 1 ? "feature" : "features", static_cast<long>(features) - numeric, numeric);
-}
-
-std::string described(const TableOptions& options) {
-  std::string text = options.smoothing == 1.0 ? std::string("counts smoothed by Laplace's rule")
-                                              : fmt::format("{} added to every count", options.smoothing);
-  text += options.equal_prior ? "; every class equally plausible before" : "; prior by the classes' shares of the rows";
-  if (options.misread > 0.0) text += fmt::format("; a reading is wrong with probability {}", options.misread);
-  return text;
 }
 
 }  // namespace sigmax::apps

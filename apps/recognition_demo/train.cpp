@@ -4,8 +4,7 @@
 #include <sigmax/recognition/dominance.hpp>
 
 #include "checks/table_checks.hpp"
-#include "recognition_demo/contest.hpp"
-#include "recognition_demo/model_file.hpp"
+#include "recognition_demo/learning.hpp"
 
 namespace sigmax::apps {
 namespace {

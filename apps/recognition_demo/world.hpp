@@ -1,6 +1,6 @@
 #pragma once
 
-#include "recognition_demo/contest.hpp"
+#include "recognition_demo/learning.hpp"
 #include "shell/random.hpp"
 
 namespace sigmax::apps {

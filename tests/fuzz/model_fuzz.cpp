@@ -2,7 +2,7 @@
 // or an error that names the file.
 
 #include "fuzz/memory_file.hpp"
-#include "recognition_demo/model_file.hpp"
+#include "recognition_demo/learning.hpp"
 #include "shell/input.hpp"
 
 namespace {
