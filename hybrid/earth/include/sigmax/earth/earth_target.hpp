@@ -37,7 +37,8 @@ class EarthTarget : public AnyTarget {
   /// @{
   /// The same in parts, for who looks at them: a detection in the frame of now, where what it does not tell is at the
   /// place that is expected then; a step with it, or with any in that frame; and a point of that frame on the Earth.
-  /// Before it has begun, a step is that of AnyTarget. A target that does not run yet misses what is no whole place.
+  /// The first and the last want a target that has begun; before that a step is AnyTarget's. A target that does not run
+  /// yet misses what is no whole place.
   AnyPlot in_frame(const AnyPlot& plot) const;
   void follow_in_frame(const AnyPlot& plot, const std::function<void(const TargetPoint&)>& visit);
   EarthPoint on_earth(TargetPoint point, bool is_predicted = false) const;
