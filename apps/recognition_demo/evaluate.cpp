@@ -1,3 +1,5 @@
+#include <set>
+
 #include "checks/table_checks.hpp"
 #include "recognition_demo/cross_validation.hpp"
 #include "recognition_demo/learning.hpp"
@@ -107,20 +109,16 @@ void write_predictions(const LabelledTable& data, const EvaluateOptions& options
 
 /// Throws unless every class can be learned whichever fold is left out: it needs two rows, of two groups.
 void refuse_rare_classes(const LabelledTable& data) {
-  std::vector<std::optional<std::size_t>> first(data.classes.size());
-  std::vector<bool> again(data.classes.size());
-  for (std::size_t row = 0; row < data.size(); ++row) {
-    auto& its = first[data.labels[row]];
-    if (its && (data.groups.empty() || data.groups[*its] != data.groups[row])) again[data.labels[row]] = true;
-    its = its.value_or(row);
-  }
-  const auto rare = static_cast<std::size_t>(std::ranges::find(again, false) - again.begin());
-  if (rare < again.size())
-    throw InputError(
-        "{}:{}: column {}: found {} in a single {}, expected at least two of every class: one to learn from, one to "
-        "classify; add rows, or remove those of the class",
-        data.file, data.lines[*first[rare]], in_quotes(data.label), in_quotes(data.classes[rare]),
-        data.groups.empty() ? "row" : "group");
+  std::vector<std::set<std::size_t>> of(data.classes.size());  // of each class two groups, or rows, at most
+  for (std::size_t row = 0; row < data.size(); ++row)
+    if (auto& its = of[data.labels[row]]; its.size() < 2) its.insert(data.groups.empty() ? row : data.groups[row]);
+  for (std::size_t row = 0; row < data.size(); ++row)
+    if (of[data.labels[row]].size() < 2)
+      throw InputError(
+          "{}:{}: column {}: found {} in a single {}, expected at least two of every class: one to learn from, one to "
+          "classify; add rows, or remove those of the class",
+          data.file, data.lines[row], in_quotes(data.label), in_quotes(data.classes[data.labels[row]]),
+          data.groups.empty() ? "row" : "group");
 }
 
 /// Which classifier to use: sigma, unless another one is right more often beyond its interval; none of them where the
