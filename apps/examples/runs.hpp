@@ -6,7 +6,7 @@
 #include <iostream>
 
 #include "report/report.hpp"
-#include "shell/output.hpp"
+#include "shell/files.hpp"
 
 namespace examples {
 

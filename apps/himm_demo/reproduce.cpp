@@ -15,36 +15,6 @@ struct ReproduceOptions {
   OutputOptions output;
 };
 
-/// In words that --set takes: the filters of the paper and those that it is to be compared with.
-std::vector<std::string> settings_of(int scenario_number, int group_number) {
-  std::string names = "imm, imm_released, imm_most_likely, imm_released_most_likely, gpb2, viterbi";
-  std::vector<std::string> sets = {"filter.imm.imm_mixing=correct", "filter.imm_most_likely.imm_mixing=correct",
-                                   "filter.imm_released_most_likely.imm_mixing=released",
-                                   "filter.imm_released_most_likely.output=most_likely"};
-  for (const std::string reading : himm_readings) {
-    names += ", himm_" + reading;
-    if (scenario_number != 2 || group_number != 1) continue;
-    names += ", himm_" + reading + "_5";  // with σ_w = 5, section VI.D
-    sets.push_back(fmt::format("filter.himm_{0}_5.mixed_covariance={0}", reading));
-    sets.push_back(fmt::format("filter.himm_{}_5.sigma_w=5", reading));
-  }
-  sets.push_back("filters=[" + names + "]");
-  return sets;
-}
-
-/// Both presets, both scenarios and all groups, in this order.
-std::vector<Condition> conditions(const ReproduceOptions& options) {
-  std::vector<Condition> all;
-  for (const Preset preset : both_presets)
-    for (const int scenario : {1, 2})
-      for (const int group : {1, 2, 3, 4}) {
-        const Settings settings = Settings::read({}, settings_of(scenario, group));
-        all.push_back({preset, scenario, group,
-                       Tally(experiment_of(preset, scenario, group, settings, options.runs, options.seed))});
-      }
-  return all;
-}
-
 /// All runs of the conditions, in batches whose number does not depend on the runs (but for few). Does them, and gives
 /// each condition its own; false where there is nothing to report.
 bool run(const ReproduceOptions& options, std::vector<Condition>& conditions) {
@@ -64,8 +34,6 @@ bool run(const ReproduceOptions& options, std::vector<Condition>& conditions) {
 /// Everything that is judged, by preset, reading and sentence.
 using Judgements = std::map<Preset, std::map<std::string_view, std::vector<Judged>>>;
 
-const char* words_of(Preset preset) { return preset == Preset::released ? "As released" : "As printed"; }
-
 /// That of an enumerator, of words in the order of all.
 template <class Enumerator, std::size_t size>
 std::string_view word_of(Enumerator one, const std::array<const char*, size>& words) {
@@ -74,12 +42,6 @@ std::string_view word_of(Enumerator one, const std::array<const char*, size>& wo
 constexpr std::array verdict_words = {"holds", "only released", "does not hold", "undecided"};
 constexpr std::array verdict_letters = {"yes", "(yes)", "no", "?"};
 constexpr std::array finding_names = {"inside", "outside", "open"};
-/// "1/2": scenario and group.
-template <class Of>
-std::string place_of(const Of& of) {
-  return fmt::format("{}/{}", of.scenario, of.group);
-}
-
 std::string text_of(const Measured& measured, std::size_t imm) {
   const auto [mean, half_width] = measured.shown(imm);
   return fmt::format("{} ± {}{}", number_text(mean, 1, !measured.statement->against.empty()),
@@ -222,62 +184,6 @@ ResultTable table_of(const HeatMap& map) {
   return table;
 }
 
-/// The figures of all sentences that are of this scenario and group, and where the sentences want them: those of the
-/// RMSE of the same two filters together, and others by their unit.
-std::vector<Panel> figures_of(const std::vector<Judged>& sentences, const Condition& condition) {
-  std::vector<IntervalChart> charts;
-  for (std::size_t s = 0; s < sentences.size(); ++s)
-    for (const Measured& measured : sentences[s].figures) {
-      const Statement& statement = *measured.statement;
-      if (place_of(statement) != place_of(condition)) continue;
-      const bool rmse = statement.figure->by_axis, relative = statement.figure->relative;
-      const double scale = relative ? 100.0 : 1.0;
-      const std::string title = rmse       ? fmt::format("RMSE of {} against {}", statement.of, statement.against)
-                                : relative ? "The z axis after the onset, and who leads"
-                                : statement.against.empty() ? "Cross-times and switches"
-                                                            : "Differences of cross-times and switches";
-      auto chart = std::ranges::find(charts, title, &IntervalChart::title);
-      if (chart == charts.end()) {
-        charts.push_back({.title = title,
-                          .x_label = relative ? "relative difference or share, %" : "samples, or switches a run",
-                          .series = {{.name = "with the correct IMM"}, {.name = "with the released IMM"}},
-                          .reference = statement.against.empty() ? std::nullopt : std::optional(0.0),
-                          .wanted_label = "where the sentence wants it",
-                          .digits = relative ? 1 : 2,
-                          .note = "The number is the sentence's; the intervals hold together for all its figures."});
-        chart = charts.end() - 1;
-      }
-      chart->rows.push_back(fmt::format(
-          "{}. {}", s + 1,
-          rmse ? fmt::format("{} {}", phase_names[*measured.phase], axis_names[*measured.axis]) : measured.subject()));
-      for (const std::size_t imm : {0U, 1U}) {
-        chart->series[imm].values.push_back(measured.shown(imm));
-        chart->series[imm].wanted.push_back({scale * statement.region.above, scale * statement.region.below});
-      }
-    }
-  return {charts.begin(), charts.end()};
-}
-
-/// What decides in a condition, and the RMSE of the measurement and the filters.
-View view_of(const Judgements& all, const Condition& condition, const std::vector<std::string>& names) {
-  View view{fmt::format("{}: scenario {}, group {}", words_of(condition.preset), condition.scenario, condition.group),
-            figures_of(all.at(condition.preset).at(reading_of(condition.preset)), condition)};
-  for (std::size_t axis = 0; axis < axis_names.size(); ++axis) {
-    IntervalChart chart{.title = fmt::format("RMSE in {}", axis_names[axis]),
-                        .x_label = "RMSE, m",
-                        .rows = {phase_names.begin(), phase_names.end()}};
-    for (const auto& name : names) {
-      const auto of = condition.tally.place(name);
-      if (!of) continue;
-      IntervalSeries& series = chart.series.emplace_back(IntervalSeries{.name = name, .group = name});
-      for (std::size_t phase = 0; phase < phase_names.size(); ++phase)
-        series.values.push_back(condition.tally.rmse(*of, phase, axis).interval());
-    }
-    view.panels.emplace_back(std::move(chart));
-  }
-  return view;
-}
-
 /// "As printed: 3 of 20 hold, …".
 std::string counts_of(const std::vector<Judged>& sentences, Preset preset) {
   std::array<int, 4> count{};
@@ -330,7 +236,7 @@ void report(const ReproduceOptions& options, const std::vector<Condition>& condi
     page.groups.push_back({.name = name, .shown = name == "imm" || name == "himm_own" || name == "himm_released"});
   page.chooser = "Show";
   names.insert(names.begin(), measurement_name);
-  for (const auto& condition : conditions) page.views.push_back(view_of(all, condition, names));
+  for (const auto& condition : conditions) page.views.push_back(view_of(of(condition.preset), condition, names));
 
   for (const Preset preset : both_presets) {
     const std::string heading = fmt::format("{}: the figures that decide", words_of(preset));
@@ -377,7 +283,7 @@ void add_reproduce(CLI::App& program, const std::string& command) {
   add_shard(app, options->sharing);
   add_results(app, options->output, command);
   app.run([options] {
-    auto all = conditions(*options);
+    auto all = conditions(options->runs, options->seed);
     if (run(*options, all)) report(*options, all);
   });
 }

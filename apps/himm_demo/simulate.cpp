@@ -59,8 +59,8 @@ std::vector<Field> figures_of(const SimulateOptions& options, const Tally& tally
                               const std::optional<double>& ns_per_step) {
   const FilterSettings* const filter = tally.filter(of);
   std::vector<Field> all = {{of_words("filter", "filter"), tally.name(of)}};
-  const auto add = [&](const ResultColumn& column, const auto& value) {
-    all.push_back({column, filter ? Cell(value()) : Cell()});
+  const auto add = [&](ResultColumn column, const Cell& cell) {
+    all.push_back({std::move(column), filter ? cell : Cell()});
   };
   const auto add_rmse = [&](const std::string& key, const std::string& header, const std::string& group, unsigned part,
                             double rmse) {
@@ -85,9 +85,8 @@ std::vector<Field> figures_of(const SimulateOptions& options, const Tally& tally
            .header = phase_names[p],
            .group = group,
            .parts = nees ? FigurePart::nees : 0U},
-          [&] { return tally.mean_of(of, figure, p); });
-    add({.header = name, .group = nees ? "NEES:" : "", .parts = FigurePart::overview},
-        [&] { return tally.mean_of(of, figure); });
+          tally.mean_of(of, figure, p));
+    add({.header = name, .group = nees ? "NEES:" : "", .parts = FigurePart::overview}, tally.mean_of(of, figure));
   };
   add_consistency(Tally::nees_position, "nees_position", "position:", "position");
   add_consistency(Tally::nees_velocity, "nees_position_velocity", "and velocity:", "and velocity");
@@ -96,20 +95,18 @@ std::vector<Field> figures_of(const SimulateOptions& options, const Tally& tally
   const std::vector<double> times = tally.cross_times(of);
   const auto mean_time = times.empty() ? std::nullopt : std::optional(mean_interval(times));
   const auto crossed = tally.has_manoeuvre(of) ? std::optional(times.size()) : std::nullopt;
-  const auto curves = [&] { return tally.cross_time_of_curves(of); };
+  const auto curves = tally.cross_time_of_curves(of);
   add({.key = "cross_time_of_runs", .header = "mean of runs", .interval = true, .parts = FigurePart::cross_times},
-      [&] { return mean_time; });
-  add({.header = "runs", .group = "cross-time:", .parts = FigurePart::overview},
-      [&] { return mean_time ? mean_time->mean : nan; });
-  add({.key = "runs_crossed", .parts = 0}, [&] { return crossed; });
+      mean_time);
+  add({.header = "runs", .group = "cross-time:", .parts = FigurePart::overview}, mean_time ? mean_time->mean : nan);
+  add({.key = "runs_crossed", .parts = 0}, crossed);
   add({.header = "runs that crossed", .parts = FigurePart::cross_times},
-      [&] { return crossed ? fmt::format("{} of {}", *crossed, tally.experiment.runs) : "–"; });
+      crossed ? fmt::format("{} of {}", *crossed, tally.experiment.runs) : "–");
   add({.key = "cross_time_of_curves", .header = "of the averaged curves", .parts = FigurePart::cross_times}, curves);
   add({.header = "curves", .group = "cross-time:", .parts = FigurePart::overview}, curves);
   add({.key = "cross_time_of_paper", .header = "paper", .parts = FigurePart::cross_times},
-      [&] { return paper_cross_time(options.scenario, options.group, *filter); });
-  add({.header = "ns/step", .digits = 0, .parts = FigurePart::overview},
-      [&] { return ns_per_step ? Cell(*ns_per_step) : Cell(); });
+      filter ? paper_cross_time(options.scenario, options.group, *filter) : std::nullopt);
+  add({.header = "ns/step", .digits = 0, .parts = FigurePart::overview}, ns_per_step ? Cell(*ns_per_step) : Cell());
   return all;
 }
 

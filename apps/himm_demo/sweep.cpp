@@ -17,8 +17,10 @@ namespace {
 /// sampling period; the acceleration and the length of the manoeuvre.
 enum Factor : std::size_t { noise, period, strength, length };
 constexpr std::array factor_names = {"noise", "period", "strength", "length"};
+constexpr std::array factor_options = {"--mismatch", "--period", "--strength", "--length"};
 
 using Numbers = std::vector<double>;
+const std::vector<std::string> lift_names = {"zero", "borrowed_variance", "unbiased"};  // of the first ones of Lift
 
 #ifndef SIGMAX_TUNING
 struct SearchOptions {
@@ -43,7 +45,7 @@ struct SweepOptions {
   Numbers probability = {1e-6, 0.9};  ///< the off-diagonals of P, each row apart
   Numbers possibility = {1e-6, 1.0};  ///< the same of Π
   Numbers sigma_w = {0.1, 100.0};     ///< of each model apart
-  std::vector<std::string> lifts = {"zero", "borrowed_variance", "unbiased"};
+  std::vector<std::string> lifts = lift_names;
   /// @}
   int tuning_runs = 20;
   int runs = 100;
@@ -140,18 +142,16 @@ class SweepWorld {
 
   /// Tunes each filter in each condition and judges it on other runs. A cell is condition · filters + filter.
   Study study() const {
-    const auto list = [](const Numbers& numbers) { return fmt::format("{}", fmt::join(each(numbers, shortest), ",")); };
-    return {
-        "cells", conditions.size() * filters.size(),
-        [this](std::size_t cell) { return work(cell / filters.size(), cell % filters.size()); },
-        fmt::format("himm_demo {} sweep --scenario {} --mismatch {} --period {} --strength {} --length {} --filters "
-                    "{} --probability {} --possibility {} --sigma-w {} --lift {} --tuning-runs {} --runs {} --seed "
-                    "{}{}",
-                    version, fmt::join(options.scenarios, ","), list(options.factors[noise]),
-                    list(options.factors[period]), list(options.factors[strength]), list(options.factors[length]),
-                    fmt::join(options.filters, ","), list(options.probability), list(options.possibility),
-                    list(options.sigma_w), fmt::join(options.lifts, ","), options.tuning_runs, options.runs,
-                    options.seed, options.cross ? " --cross" : "")};
+    const auto list = [](const auto& values) { return fmt::format("{}", fmt::join(values, ",")); };
+    std::string command = fmt::format("himm_demo {} sweep --scenario {}", version, list(options.scenarios));
+    for (std::size_t i = 0; i < factor_names.size(); ++i)
+      command += fmt::format(" {} {}", factor_options[i], list(options.factors[i]));
+    command += fmt::format(
+        " --filters {} --probability {} --possibility {} --sigma-w {} --lift {} --tuning-runs {} --runs {} --seed {}{}",
+        list(options.filters), list(options.probability), list(options.possibility), list(options.sigma_w),
+        list(options.lifts), options.tuning_runs, options.runs, options.seed, options.cross ? " --cross" : "");
+    return {"cells", conditions.size() * filters.size(),
+            [this](std::size_t cell) { return work(cell / filters.size(), cell % filters.size()); }, command};
   }
 
   /// Of the next cell.
@@ -213,9 +213,7 @@ class SweepWorld {
     own.transition = {{own.fuzzy ? 1.0 : 1.0 - numbers[0], numbers[0]},
                       {numbers[1], own.fuzzy ? 1.0 : 1.0 - numbers[1]}};
     for (const std::size_t model : {0U, 1U}) own.motions[model][MotionParameter::sigma_w] = numbers[2 + model];
-    own.lift = options.lifts[lift] == "zero"       ? Lift::zero
-               : options.lifts[lift] == "unbiased" ? Lift::unbiased
-                                                   : Lift::borrowed_variance;
+    own.lift = static_cast<Lift>(std::ranges::find(lift_names, options.lifts[lift]) - lift_names.begin());
     return own;
   }
   Tally tally(std::size_t condition, const FilterSettings& filter) const {
@@ -511,25 +509,21 @@ Option add_list(Subcommand& app, const std::string& name, std::vector<Value>& va
 void add_sweep(CLI::App& program, const std::string& command) {
   Subcommand app(program, "sweep", "Every filter at its best settings, in many conditions.");
   const auto options = std::make_shared<SweepOptions>();
-  const auto add_factors = [&](const char* name, Factor factor, const char* meaning) {
-    add_list(app, name, options->factors[factor], meaning).number_in(0.05, 20.0);
-  };
   const auto add_range = [&](const char* name, Numbers& range, double least, double most, const char* meaning) {
     add_list(app, name, range, meaning).number_in(least, most);
   };
   add_list(app, "--scenario", options->scenarios, "1: fire control radar, 2: surveillance radar").in({1, 2});
-  add_factors("--mismatch", noise, "Noise of the radar, believed over true");
-  add_factors("--period", period, "Sampling period, times the paper's");
-  add_factors("--strength", strength, "Acceleration, times the paper's");
-  add_factors("--length", length, "Length of the manoeuvre, times the paper's");
+  constexpr std::array meanings = {"Noise of the radar, believed over true", "Sampling period, times the paper's",
+                                   "Acceleration, times the paper's", "Length of the manoeuvre, times the paper's"};
+  for (std::size_t i = 0; i < meanings.size(); ++i)
+    add_list(app, factor_options[i], options->factors[i], meanings[i]).number_in(0.05, 20.0);
   app.flag("--cross", options->cross, "Every combination of these four, rather than each alone with the others 1");
   add_list(app, "--filters", options->filters, "Names as of the setting filters; the others are compared with imm");
   add_range("--probability", options->probability, 1e-12, 0.9,
             "Off-diagonals of P, the two rows apart: one, or the least and the greatest");
   add_range("--possibility", options->possibility, 1e-12, 1.0, "The same of the matrix of possibilities");
   add_range("--sigma-w", options->sigma_w, 1e-6, 1e6, "The same of sigma_w in m/s², the two models apart");
-  add_list(app, "--lift", options->lifts, "What stands for a component that a model lacks")
-      .one_of({"zero", "borrowed_variance", "unbiased"});
+  add_list(app, "--lift", options->lifts, "What stands for a component that a model lacks").one_of(lift_names);
   app.option("--tuning-runs", options->tuning_runs, "Runs by which the best settings are chosen").in(1, 1000000);
   app.option("--runs", options->runs, "Other runs by which they are judged").in(2, 1000000);
   add_seed(app, options->seed);

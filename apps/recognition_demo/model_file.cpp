@@ -1,8 +1,7 @@
 #include "recognition_demo/learning.hpp"
 
-#include "shell/input.hpp"
+#include "shell/files.hpp"
 #include "shell/json.hpp"
-#include "shell/output.hpp"
 #include "shell/text.hpp"
 
 namespace sigmax::apps {

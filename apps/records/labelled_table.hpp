@@ -2,7 +2,7 @@
 
 #include <sigmax/recognition/table_model.hpp>
 
-#include "shell/numbers.hpp"
+#include "shell/text.hpp"
 #include "table/csv.hpp"
 
 namespace sigmax::apps {

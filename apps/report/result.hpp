@@ -5,7 +5,7 @@
 
 #include "report/report.hpp"
 #include "shell/command_line.hpp"
-#include "shell/output.hpp"
+#include "shell/files.hpp"
 
 namespace sigmax::apps {
 

@@ -14,7 +14,7 @@
 #include <sstream>
 #include <system_error>
 
-#include "shell/output.hpp"
+#include "shell/files.hpp"
 #include "shell/text.hpp"
 #include "version.hpp"
 

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "shell/output.hpp"
+#include "shell/files.hpp"
 #include "shell/text.hpp"
 
 namespace sigmax::apps {

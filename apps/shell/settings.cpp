@@ -1,13 +1,12 @@
 #include "shell/settings.hpp"
 
-#include <cctype>
 #include <cmath>
 #include <set>
 #include <sstream>
 
 #include <toml++/toml.h>
 
-#include "shell/input.hpp"
+#include "shell/files.hpp"
 #include "shell/text.hpp"
 
 namespace sigmax::apps {
@@ -151,41 +150,6 @@ toml::table parsed(std::string_view text, const Origin& origin) {
   }
 }
 
-/// Puts words into quotes where TOML would have none, so that a shell need not carry them, and digits to points.
-std::string with_quoted_words(std::string_view value) {
-  const auto starts_word = [](char byte) {
-    const auto code = static_cast<unsigned char>(byte);
-    return std::isalpha(code) != 0 || byte == '_' || code >= 0x80U;
-  };
-  const auto continues_token = [&](char byte) {
-    return starts_word(byte) || std::isdigit(static_cast<unsigned char>(byte)) != 0 ||
-           std::string_view{"+-.:"}.find(byte) != std::string_view::npos;
-  };
-  std::string text;
-  while (!value.empty()) {
-    std::size_t size = 1;
-    bool word = false;
-    if (const char first = value[0]; first == '"' || first == '\'') {
-      while (size < value.size() && value[size] != first) size += first == '"' && value[size] == '\\' ? 2U : 1U;
-      size = std::min(size + 1, value.size());
-    } else if (first == '#') {
-      size = value.size();
-    } else if (continues_token(first)) {
-      while (size < value.size() && continues_token(value[size])) ++size;
-      const std::string_view name = value.substr(0, size);
-      // A word before '=' is a key of an inline table.
-      word = starts_word(first) && name != "true" && name != "false" && name != "inf" && name != "nan" &&
-             !trimmed(value.substr(size)).starts_with('=');
-    }
-    std::string token(value.substr(0, size));
-    const bool lacks_digit = token.ends_with('.') || token.find_first_not_of("+-") == token.find('.');
-    if (const auto number = lacks_digit ? parse_number(token) : std::nullopt) token = fmt::format("{}", *number);
-    text.append(word ? "\"" : "").append(token).append(word ? "\"" : "");
-    value.remove_prefix(size);
-  }
-  return text;
-}
-
 }  // namespace
 
 /// One table of one origin. The keys asked for are kept here, since every view of the table adds to them.
@@ -238,7 +202,7 @@ Settings Settings::read(const std::filesystem::path& file, std::span<const std::
     const std::string_view key = trimmed(std::string_view{set}.substr(0, equals));
     const std::string_view value = equals == std::string::npos ? "" : trimmed(std::string_view{set}.substr(equals + 1));
     if (key.empty() || value.empty()) throw UsageError("--set: found {}, expected key=value", in_quotes(set));
-    const std::string text = fmt::format("{} = {}", key, with_quoted_words(value));
+    const std::string text = fmt::format("{} = {}", key, toml_value(value));
     settings.layers_.push_back(Layer::of({"--set " + set, false}, text));
   }
   return settings;

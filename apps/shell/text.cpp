@@ -1,6 +1,7 @@
 #include "shell/text.hpp"
 
 #include <array>
+#include <cctype>
 #include <charconv>
 #include <clocale>
 #include <cmath>
@@ -37,6 +38,40 @@ std::string shortest(double value) {
 std::string toml_number(double value) {
   std::string text = shortest(value);
   if (std::abs(value) >= 0x1p53 && text.find_first_of(".en") == std::string::npos) text += ".0";
+  return text;
+}
+
+std::string toml_value(std::string_view value) {
+  const auto starts_word = [](char byte) {
+    const auto code = static_cast<unsigned char>(byte);
+    return std::isalpha(code) != 0 || byte == '_' || code >= 0x80U;
+  };
+  const auto continues_token = [&](char byte) {
+    return starts_word(byte) || std::isdigit(static_cast<unsigned char>(byte)) != 0 ||
+           std::string_view{"+-.:"}.find(byte) != std::string_view::npos;
+  };
+  std::string text;
+  while (!value.empty()) {
+    std::size_t size = 1;
+    bool word = false;
+    if (const char first = value[0]; first == '"' || first == '\'') {
+      while (size < value.size() && value[size] != first) size += first == '"' && value[size] == '\\' ? 2U : 1U;
+      size = std::min(size + 1, value.size());
+    } else if (first == '#') {
+      size = value.size();
+    } else if (continues_token(first)) {
+      while (size < value.size() && continues_token(value[size])) ++size;
+      const std::string_view name = value.substr(0, size);
+      // A word before '=' is a key of an inline table.
+      word = starts_word(first) && name != "true" && name != "false" && name != "inf" && name != "nan" &&
+             !trimmed(value.substr(size)).starts_with('=');
+    }
+    std::string token(value.substr(0, size));
+    const bool lacks_digit = token.ends_with('.') || token.find_first_not_of("+-") == token.find('.');
+    if (const auto number = lacks_digit ? parse_number(token) : std::nullopt) token = fmt::format("{}", *number);
+    text.append(word ? "\"" : "").append(token).append(word ? "\"" : "");
+    value.remove_prefix(size);
+  }
   return text;
 }
 

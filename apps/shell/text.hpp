@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <functional>
 #include <iterator>
+#include <limits>
+#include <numbers>
 #include <optional>
 #include <type_traits>
 #include <vector>
@@ -13,6 +15,13 @@
 #include "shell/error.hpp"
 
 namespace sigmax::apps {
+
+inline constexpr double degree = std::numbers::pi / 180.0;  ///< in rad
+
+/// A number that is not known: a gap in a curve, an empty cell.
+inline constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+inline constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Text without the blanks and tabs around it.
 std::string_view trimmed(std::string_view text);
@@ -25,6 +34,9 @@ std::string shortest(double value);
 
 /// The same as TOML reads it back: with a point where it would be an integer that no double may stand for.
 std::string toml_number(double value);
+
+/// A value as TOML takes it: words in quotes, so that a shell need not carry them, and digits to points.
+std::string toml_value(std::string_view value);
 
 /// Columns of a terminal that nobody has widened.
 inline constexpr std::size_t terminal_width = 80;

@@ -9,8 +9,7 @@
 #include <charconv>
 
 #include "shell/command_line.hpp"
-#include "shell/input.hpp"
-#include "shell/output.hpp"
+#include "shell/files.hpp"
 #include "shell/text.hpp"
 
 namespace sigmax::apps {

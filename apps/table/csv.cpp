@@ -7,7 +7,7 @@
 #include <set>
 #include <system_error>
 
-#include "shell/input.hpp"
+#include "shell/files.hpp"
 #include "shell/text.hpp"
 
 namespace sigmax::apps {

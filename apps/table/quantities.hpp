@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "shell/numbers.hpp"
+#include "shell/text.hpp"
 
 namespace sigmax::apps {
 

@@ -1,4 +1,4 @@
-#include "shell/input.hpp"
+#include "shell/files.hpp"
 
 #include "apps/temporary_directory.hpp"
 #include "shell/error.hpp"

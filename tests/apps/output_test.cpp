@@ -1,4 +1,4 @@
-#include "shell/output.hpp"
+#include "shell/files.hpp"
 
 #include <sys/stat.h>
 

@@ -210,7 +210,7 @@ TEST(NumberText, SuitsTheSizeOfTheNumber) {
   EXPECT_EQ(number_text(1.5e150, 2), "1.5e+150");
   EXPECT_EQ(number_text(-1.797e308, 2, true), "-1.8e+308");
   EXPECT_EQ(number_text(0.0012, 2), "0.00");
-  EXPECT_EQ(number_text(infinity, 2), "∞");
+  EXPECT_EQ(number_text(sigmax::apps::infinity, 2), "∞");
   EXPECT_EQ(number_text(not_a_number, 2), "–");
   EXPECT_EQ(sized_text(0.0012, 2), "0.0012");
   EXPECT_EQ(sized_text(3.44e-7, 2, true), "+3.4e-07");

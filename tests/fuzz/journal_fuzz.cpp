@@ -6,7 +6,7 @@
 
 #include "fuzz/memory_file.hpp"
 #include "shell/error.hpp"
-#include "shell/input.hpp"
+#include "shell/files.hpp"
 #include "study/journal.hpp"
 #include "study/study.hpp"
 

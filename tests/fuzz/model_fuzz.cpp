@@ -3,7 +3,7 @@
 
 #include "fuzz/memory_file.hpp"
 #include "recognition_demo/learning.hpp"
-#include "shell/input.hpp"
+#include "shell/files.hpp"
 
 namespace {
 

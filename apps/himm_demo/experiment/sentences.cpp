@@ -109,12 +109,40 @@ Judged measured(const Sentence& sentence, const std::vector<Condition>& conditio
   return judged;
 }
 
+/// In words that --set takes: the filters of the paper and those that it is to be compared with.
+std::vector<std::string> settings_of(int scenario_number, int group_number) {
+  std::string names = "imm, imm_released, imm_most_likely, imm_released_most_likely, gpb2, viterbi";
+  std::vector<std::string> sets = {"filter.imm.imm_mixing=correct", "filter.imm_most_likely.imm_mixing=correct",
+                                   "filter.imm_released_most_likely.imm_mixing=released",
+                                   "filter.imm_released_most_likely.output=most_likely"};
+  for (const std::string reading : himm_readings) {
+    names += ", himm_" + reading;
+    if (scenario_number != 2 || group_number != 1) continue;
+    names += ", himm_" + reading + "_5";  // with σ_w = 5, section VI.D
+    sets.push_back(fmt::format("filter.himm_{0}_5.mixed_covariance={0}", reading));
+    sets.push_back(fmt::format("filter.himm_{}_5.sigma_w=5", reading));
+  }
+  sets.push_back("filters=[" + names + "]");
+  return sets;
+}
+
 }  // namespace
 
 std::string filter_of(const std::string& actor, std::string_view reading, bool released_imm) {
   const std::string imm = released_imm ? "imm_released" : "imm";
   if (actor.starts_with("himm")) return fmt::format("himm_{}{}", reading, actor.substr(4));
   return actor == "imm" ? imm : actor == "most likely" ? imm + "_most_likely" : actor;
+}
+
+std::vector<Condition> conditions(int runs, std::uint64_t seed) {
+  std::vector<Condition> all;
+  for (const Preset preset : both_presets)
+    for (const int scenario : {1, 2})
+      for (const int group : {1, 2, 3, 4}) {
+        const Settings settings = Settings::read({}, settings_of(scenario, group));
+        all.push_back({preset, scenario, group, Tally(experiment_of(preset, scenario, group, settings, runs, seed))});
+      }
+  return all;
 }
 
 std::string Measured::subject() const {

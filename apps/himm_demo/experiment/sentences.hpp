@@ -55,6 +55,18 @@ struct Condition {
   Tally tally;
 };
 
+/// Both presets, both scenarios and all groups, in this order, with the filters of the paper and those that they are to
+/// be compared with, so far without runs.
+std::vector<Condition> conditions(int runs, std::uint64_t seed);
+
+inline const char* words_of(Preset preset) { return preset == Preset::released ? "As released" : "As printed"; }
+
+/// "1/2": scenario and group.
+template <class Of>
+std::string place_of(const Of& of) {
+  return fmt::format("{}/{}", of.scenario, of.group);
+}
+
 /// One figure of a sentence, measured against the correct IMM and against the released one. The intervals of all
 /// figures of one sentence hold together with 95 %.
 struct Measured {
@@ -86,6 +98,9 @@ struct Judged {
 
 /// All sentences, in their order.
 std::vector<Judged> judge(const std::vector<Condition>& conditions, Preset preset, std::string_view reading);
+
+/// What decides in a condition, and the RMSE of the measurement and the filters.
+View view_of(const std::vector<Judged>& sentences, const Condition& condition, const std::vector<std::string>& names);
 
 /// Differences of less than a tenth of the reference are called competitive here.
 inline constexpr double competitive_fraction = 0.1;

@@ -1,6 +1,6 @@
 #include <sigmax/estimation/chi_square.hpp>
 
-#include "himm_demo/experiment/tally.hpp"
+#include "himm_demo/experiment/sentences.hpp"
 #include "report/report.hpp"
 
 namespace sigmax::apps {
@@ -139,7 +139,62 @@ View view_of(const Tally& tally, const TracedRun& run, std::size_t number, bool 
   return view;
 }
 
+/// The figures of all sentences that are of this scenario and group, and where the sentences want them: those of the
+/// RMSE of the same two filters together, and others by their unit.
+std::vector<Panel> charts_of(const std::vector<Judged>& sentences, const Condition& condition) {
+  std::vector<IntervalChart> charts;
+  for (std::size_t s = 0; s < sentences.size(); ++s)
+    for (const Measured& measured : sentences[s].figures) {
+      const Statement& statement = *measured.statement;
+      if (place_of(statement) != place_of(condition)) continue;
+      const bool rmse = statement.figure->by_axis, relative = statement.figure->relative;
+      const double scale = relative ? 100.0 : 1.0;
+      const std::string title = rmse       ? fmt::format("RMSE of {} against {}", statement.of, statement.against)
+                                : relative ? "The z axis after the onset, and who leads"
+                                : statement.against.empty() ? "Cross-times and switches"
+                                                            : "Differences of cross-times and switches";
+      auto chart = std::ranges::find(charts, title, &IntervalChart::title);
+      if (chart == charts.end()) {
+        charts.push_back({.title = title,
+                          .x_label = relative ? "relative difference or share, %" : "samples, or switches a run",
+                          .series = {{.name = "with the correct IMM"}, {.name = "with the released IMM"}},
+                          .reference = statement.against.empty() ? std::nullopt : std::optional(0.0),
+                          .wanted_label = "where the sentence wants it",
+                          .digits = relative ? 1 : 2,
+                          .note = "The number is the sentence's; the intervals hold together for all its figures."});
+        chart = charts.end() - 1;
+      }
+      chart->rows.push_back(fmt::format(
+          "{}. {}", s + 1,
+          rmse ? fmt::format("{} {}", phase_names[*measured.phase], axis_names[*measured.axis]) : measured.subject()));
+      for (const std::size_t imm : {0U, 1U}) {
+        chart->series[imm].values.push_back(measured.shown(imm));
+        chart->series[imm].wanted.push_back({scale * statement.region.above, scale * statement.region.below});
+      }
+    }
+  return {charts.begin(), charts.end()};
+}
+
 }  // namespace
+
+View view_of(const std::vector<Judged>& sentences, const Condition& condition, const std::vector<std::string>& names) {
+  View view{fmt::format("{}: scenario {}, group {}", words_of(condition.preset), condition.scenario, condition.group),
+            charts_of(sentences, condition)};
+  for (std::size_t axis = 0; axis < axis_names.size(); ++axis) {
+    IntervalChart chart{.title = fmt::format("RMSE in {}", axis_names[axis]),
+                        .x_label = "RMSE, m",
+                        .rows = {phase_names.begin(), phase_names.end()}};
+    for (const auto& name : names) {
+      const auto of = condition.tally.place(name);
+      if (!of) continue;
+      IntervalSeries& series = chart.series.emplace_back(IntervalSeries{.name = name, .group = name});
+      for (std::size_t phase = 0; phase < phase_names.size(); ++phase)
+        series.values.push_back(condition.tally.rmse(*of, phase, axis).interval());
+    }
+    view.panels.emplace_back(std::move(chart));
+  }
+  return view;
+}
 
 std::vector<View> views_of(const Tally& tally) {
   constexpr std::size_t most_numbers = 42000;                   // some 350 kB
