@@ -37,10 +37,8 @@ constexpr Rereading rereadings[] = {
 
 Vector position(const Record& row, const Rereading& read) {
   if (!row.is_radar()) return row.at;
-  const double up = read.elevation * row.elevation + read.more_elevation;
-  const double azimuth = read.azimuth * row.azimuth + read.more_azimuth;
-  return row.from + read.range * row.range *
-                        Vector(std::cos(up) * std::cos(azimuth), std::cos(up) * std::sin(azimuth), std::sin(up));
+  return row.from + to_cartesian({read.range * row.range, read.azimuth * row.azimuth + read.more_azimuth,
+                                  read.elevation * row.elevation + read.more_elevation});
 }
 
 /// A row of one sensor off what another one, or the truth, says at its time: where that is, and how fast.

@@ -79,7 +79,7 @@ void RecordingReader::take_numbers() {
 }
 
 std::optional<double> RecordingReader::written(std::size_t quantity) const {
-  const Column& column = *(columns_[quantity] ? columns_ : doubted_)[quantity];
+  const Column& column = *held(quantity);
   const auto number = parse_number(row_[column.index]);
   const auto is_it = [&](const auto& word) { return parse_number(word) == number; };
   return number == column.not_available || std::ranges::any_of(options_.missing, is_it) ? std::nullopt : number;

@@ -103,10 +103,8 @@ class RecordingReader {
   const std::string& time_header() const { return csv_.names()[time_]; }
   /// Whether a quantity has a column, counting or not, that column's header, and its number in the last row, as
   /// written.
-  bool holds(std::size_t quantity) const { return columns_[quantity] || doubted_[quantity]; }
-  const std::string& header_of(std::size_t quantity) const {
-    return csv_.names()[(columns_[quantity] ? columns_ : doubted_)[quantity]->index];
-  }
+  bool holds(std::size_t quantity) const { return held(quantity).has_value(); }
+  const std::string& header_of(std::size_t quantity) const { return csv_.names()[held(quantity)->index]; }
   std::optional<double> written(std::size_t quantity) const;
   const std::string& file() const { return csv_.file(); }
 
@@ -130,9 +128,6 @@ class RecordingReader {
   /// Rows dropped since their time was not after that of their track's row before.
   std::size_t skipped() const { return skipped_; }
 
-  /// Rows that were taken.
-  std::size_t rows() const { return rows_; }
-
  private:
   /// Where a quantity stands, in which unit, and the number that stands for none.
   struct Column {
@@ -147,6 +142,7 @@ class RecordingReader {
     bool of_day = false;  ///< whether it was a time of day
   };
 
+  const std::optional<Column>& held(std::size_t q) const { return columns_[q] ? columns_[q] : doubted_[q]; }
   std::optional<Column>& column(Role role, std::size_t i = 0) { return columns_[place_of(role) + i]; }
   bool has(Role role, std::size_t i = 0) const { return columns_[place_of(role) + i].has_value(); }
   /// What its positions stand in.

@@ -386,18 +386,16 @@ std::vector<FilterSettings> filters_for(RecordingOptions& recording, const Filte
   for (const auto& filter : filters) {
     recording.velocity |= filter.knows(&Accuracy::velocity_mps);
     recording.range_rate |= filter.knows(&Accuracy::range_rate_mps);
-    recording.sensor_places |= filter.accuracy.place.latitude_deg.has_value();
-    for (const auto& [sensor, own] : filter.sensors) {
+    auto all = filter.sensors;
+    all.emplace("", filter.accuracy);
+    for (const auto& [sensor, own] : all) {
       recording.sensor_places |= own.place.latitude_deg.has_value();
       if (own.place != filters.front().accuracy_of(sensor).place)
         throw InputError(
-            "filter '{}': sensor '{}' stands elsewhere than by filter '{}'; a sensor has one place, so give it in "
-            "[sensor.{}]",
-            filter.name, sensor, filters.front().name, toml_key(sensor));
+            "filter '{}': {} stands elsewhere than by filter '{}'; a sensor has one place, so give it in {}",
+            filter.name, sensor.empty() ? "a sensor" : fmt::format("sensor '{}'", sensor), filters.front().name,
+            sensor.empty() ? "a key of all filters" : fmt::format("[sensor.{}]", toml_key(sensor)));
     }
-    if (filter.accuracy.place != filters.front().accuracy.place)
-      throw InputError("filter '{}': sensors stand elsewhere than by filter '{}'; give one place for all filters",
-                       filter.name, filters.front().name);
   }
   return filters;
 }
