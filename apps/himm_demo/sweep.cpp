@@ -234,7 +234,7 @@ class SweepWorld {
         Tally tuning = tally(condition, settings(condition, f, whole(free), lift));
         try {
           tuning.add(tuning.row(0, static_cast<std::uint64_t>(options.tuning_runs)));
-        } catch (const std::runtime_error&) {
+        } catch (const std::exception&) {
           return infinity;  // a filter that fails with bad settings has no good score
         }
         return tuning.over_measurement(1).value();

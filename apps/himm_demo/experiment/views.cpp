@@ -26,11 +26,12 @@ std::vector<double> by_sample(const Tally& tally, const Value& value) {
 
 /// A curve of value(of, sample) for each from a first one on.
 template <class Value>
-LineChart chart(const Tally& tally, std::string title, std::string y_label, std::size_t first, const Value& value) {
+LineChart chart(const Tally& tally, const std::string& title, const std::string& y_label, std::size_t first,
+                const Value& value) {
   const Phase& manoeuvre = tally.experiment.scenario.phases[1];
-  LineChart made{.title = std::move(title),
+  LineChart made{.title = title,
                  .x_label = "sample",
-                 .y_label = std::move(y_label),
+                 .y_label = y_label,
                  .x = by_sample(tally, [](std::size_t k) { return static_cast<double>(k + 1); }),
                  .shaded = {{static_cast<double>(manoeuvre.first), static_cast<double>(manoeuvre.last), "manoeuvre"}}};
   for (std::size_t of = first; of < tally.size(); ++of)
