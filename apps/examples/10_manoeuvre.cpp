@@ -5,9 +5,10 @@
 #include <sigmax/estimation/start.hpp>
 #include <sigmax/hybrid/interacting_multiple_model.hpp>
 #include <sigmax/recognition/classifier.hpp>
+#include <sigmax/recognition/decision.hpp>
 #include <sigmax/recognition/dominance.hpp>
 
-#include "contest.hpp"
+#include "print.hpp"
 #include "shell/random.hpp"
 
 using namespace sigmax;

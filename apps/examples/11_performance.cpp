@@ -2,9 +2,10 @@
 
 #include <sigmax/core/transform.hpp>
 #include <sigmax/recognition/classifier.hpp>
+#include <sigmax/recognition/decision.hpp>
 #include <sigmax/recognition/triangle.hpp>
 
-#include "contest.hpp"
+#include "print.hpp"
 #include "shell/random.hpp"
 
 using namespace sigmax;

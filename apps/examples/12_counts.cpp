@@ -3,8 +3,9 @@
 #include <sigmax/core/transform.hpp>
 #include <sigmax/recognition/classifier.hpp>
 #include <sigmax/recognition/counts.hpp>
+#include <sigmax/recognition/decision.hpp>
 
-#include "contest.hpp"
+#include "print.hpp"
 #include "shell/random.hpp"
 
 using namespace sigmax;

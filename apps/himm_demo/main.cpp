@@ -1,4 +1,16 @@
-#include "himm_demo/subcommands.hpp"
+#include "shell/command_line.hpp"
+
+namespace sigmax::apps {
+
+// One subcommand a file: each adds its options, and does its work when it was asked for.
+void add_simulate(CLI::App& program, const std::string& command);
+void add_reproduce(CLI::App& program, const std::string& command);
+void add_sweep(CLI::App& program, const std::string& command);
+void add_track(CLI::App& program, const std::string& command);
+void add_tune(CLI::App& program, const std::string& command);
+void add_keys(CLI::App& program, const std::string& command);
+
+}  // namespace sigmax::apps
 
 int main(int argc, char** argv) {
   using namespace sigmax::apps;
@@ -8,6 +20,8 @@ int main(int argc, char** argv) {
   return run_command_line({"himm_demo",
                            "Tracks manoeuvring targets by the interacting multiple-model filter with a random mode "
                            "(IMM) and with a fuzzy mode (HIMM).",
-                           subcommands, "simulate", usage},
+                           {add_simulate, add_reproduce, add_sweep, add_track, add_tune, add_keys},
+                           "simulate",
+                           usage},
                           argc, argv);
 }

@@ -1,7 +1,6 @@
-#include "himm_demo/subcommands.hpp"
-
 #include "himm_demo/experiment/sentences.hpp"
 #include "report/result.hpp"
+#include "shell/command_line.hpp"
 #include "version.hpp"
 
 namespace sigmax::apps {

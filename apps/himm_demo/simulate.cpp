@@ -1,10 +1,9 @@
-#include "himm_demo/subcommands.hpp"
-
 #include <ctime>
 
 #include "himm_demo/experiment/sentences.hpp"
 #include "himm_demo/experiment/tally.hpp"
 #include "report/result.hpp"
+#include "shell/command_line.hpp"
 
 namespace sigmax::apps {
 namespace {

@@ -1,5 +1,3 @@
-#include "himm_demo/subcommands.hpp"
-
 #ifdef SIGMAX_TUNING
 #include <sigmax/tuning/search.hpp>
 #else
@@ -8,6 +6,7 @@
 
 #include "himm_demo/experiment/tally.hpp"
 #include "report/result.hpp"
+#include "shell/command_line.hpp"
 #include "version.hpp"
 
 namespace sigmax::apps {

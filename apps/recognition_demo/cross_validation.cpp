@@ -1,9 +1,7 @@
-#include "recognition_demo/cross_validation.hpp"
+#include "recognition_demo/learning.hpp"
 
 #include <sigmax/recognition/folds.hpp>
 
-#include "recognition_demo/learning.hpp"
-#include "shell/parallel.hpp"
 #include "shell/progress.hpp"
 
 namespace sigmax::apps {

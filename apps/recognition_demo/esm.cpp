@@ -1,4 +1,4 @@
-#include "recognition_demo/esm.hpp"
+#include "recognition_demo/world.hpp"
 
 #include <boost/math/distributions/beta.hpp>
 

@@ -1,7 +1,6 @@
 #include <set>
 
 #include "checks/table_checks.hpp"
-#include "recognition_demo/cross_validation.hpp"
 #include "recognition_demo/learning.hpp"
 
 namespace sigmax::apps {

@@ -1,4 +1,4 @@
-#include "recognition_demo/esm.hpp"
+#include "recognition_demo/world.hpp"
 
 #include <sigmax/core/transform.hpp>
 #include <sigmax/recognition/counts.hpp>

@@ -11,7 +11,7 @@
 #include <cstdio>
 #include <system_error>
 
-#include "shell/error.hpp"
+#include "shell/text.hpp"
 
 namespace sigmax::apps {
 

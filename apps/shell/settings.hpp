@@ -9,7 +9,7 @@
 
 #include <fmt/ranges.h>
 
-#include "shell/error.hpp"
+#include "shell/text.hpp"
 
 namespace sigmax::apps {
 

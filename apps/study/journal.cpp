@@ -1,4 +1,4 @@
-#include "study/journal.hpp"
+#include "study/study.hpp"
 
 #include <fcntl.h>
 #include <sys/file.h>

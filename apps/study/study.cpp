@@ -9,9 +9,7 @@
 #endif
 
 #include "report/result.hpp"
-#include "shell/parallel.hpp"
 #include "shell/progress.hpp"
-#include "study/journal.hpp"
 
 namespace sigmax::apps {
 namespace {

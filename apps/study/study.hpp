@@ -1,10 +1,74 @@
 #pragma once
 
 #include <cstddef>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include "shell/command_line.hpp"
 
 namespace sigmax::apps {
+
+/// What the cells of a study gave, by the number of the cell.
+using CellRows = std::map<std::size_t, std::vector<double>>;
+
+/// A journal as it lies on the disk, which may still be growing: a first line that describes the study, then a line
+/// "cell,number,number,…" for each finished cell, each with its checksum. Numbers read back as the same doubles. A line
+/// counts when its end is there.
+struct Journaled {
+  std::string study;
+  CellRows rows;
+};
+
+/// Throws InputError, with the line, for what is no journal, and where a checksum is not that of its line.
+Journaled read_journal(const std::filesystem::path& path);
+
+/// A line of a journal with its checksum, CRC-32, and its end: "0,1.5 #f5fa1db5".
+std::string sealed(std::string_view line);
+
+/// The sealed line of a cell.
+std::string journal_line(std::size_t cell, const std::vector<double>& row);
+
+/// Throws InputError with the first option that differs unless the journal is of the study that was expected.
+void require_study(const std::filesystem::path& journal, std::string_view found, std::string_view expected,
+                   std::string_view what, std::string_view remedy = {});
+
+/// The journal of a study that goes on. What a killed program left of its last line is cut off, and damaged lines are
+/// taken out with a warning, so that their cells are done again.
+///
+///     Journal journal("results/cells.journal", "himm_demo sweep {…}");
+///     for (…) if (!journal.rows().contains(cell)) journal.append({{cell, work(cell)}});
+///     journal.finish();
+class Journal {
+ public:
+  /// Opens the journal of that study or begins it. Throws InputError if the file is of another study, if another
+  /// program has it open, or if it cannot be read or written.
+  Journal(std::filesystem::path path, std::string study);
+
+  Journal(const Journal&) = delete;
+  Journal& operator=(const Journal&) = delete;
+  ~Journal();
+
+  const CellRows& rows() const { return all_.rows; }
+
+  /// Brings finished cells to the disk, behind the others.
+  void append(const CellRows& rows);
+
+  /// Puts the same cells into their order, so that the file does not tell how often the work was interrupted.
+  void finish();
+
+ private:
+  explicit Journal(std::filesystem::path path);  // the other one goes on from here, so what it throws closes the file
+
+  [[noreturn]] void fail() const;
+  void write(const std::string& text);
+
+  std::filesystem::path path_;
+  Journaled all_;
+  int descriptor_;
+};
 
 struct OutputOptions;
 

@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "shell/error.hpp"
+#include "shell/text.hpp"
 
 namespace sigmax::apps {
 

@@ -34,7 +34,7 @@
 #include <sigmax/hybrid/interacting_multiple_model.hpp>
 
 #include "himm_demo/experiment/scenario.hpp"
-#include "shell/parallel.hpp"
+#include "shell/progress.hpp"
 #include "shell/random.hpp"
 
 namespace {

@@ -1,4 +1,4 @@
-#include "shell/error.hpp"
+#include "shell/text.hpp"
 #include "support/test.hpp"
 
 namespace error_test {

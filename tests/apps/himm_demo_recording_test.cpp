@@ -2,8 +2,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "apps/recordings.hpp"
 #include <sigmax/earth/local_frame.hpp>
+#include "apps/recordings.hpp"
 
 namespace himm_demo_recording_test {
 

@@ -1,7 +1,7 @@
 #include "shell/files.hpp"
 
 #include "apps/temporary_directory.hpp"
-#include "shell/error.hpp"
+#include "shell/text.hpp"
 
 namespace input_test {
 

@@ -1,8 +1,7 @@
-#include "study/journal.hpp"
+#include "study/study.hpp"
 
 #include "apps/temporary_directory.hpp"
 #include "report/result.hpp"
-#include "study/study.hpp"
 
 namespace journal_test {
 

@@ -3,7 +3,7 @@
 #include <sys/stat.h>
 
 #include "apps/temporary_directory.hpp"
-#include "shell/error.hpp"
+#include "shell/text.hpp"
 
 namespace output_test {
 

@@ -1,4 +1,4 @@
-#include "shell/parallel.hpp"
+#include "shell/progress.hpp"
 #include "support/test.hpp"
 
 namespace parallel_test {

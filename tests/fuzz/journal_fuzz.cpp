@@ -5,9 +5,8 @@
 #include <CLI/CLI.hpp>
 
 #include "fuzz/memory_file.hpp"
-#include "shell/error.hpp"
 #include "shell/files.hpp"
-#include "study/journal.hpp"
+#include "shell/text.hpp"
 #include "study/study.hpp"
 
 namespace {

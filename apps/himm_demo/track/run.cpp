@@ -1,6 +1,5 @@
 #include <sigmax/earth/earth_target.hpp>
 
-#include "himm_demo/track/estimates.hpp"
 #include "himm_demo/track/page.hpp"
 #include "himm_demo/track/track.hpp"
 #include "shell/progress.hpp"

@@ -1,8 +1,7 @@
-#include "himm_demo/subcommands.hpp"
-
+#include "himm_demo/track/track.hpp"
 #include "checks/checks.hpp"
 #include "himm_demo/track/page.hpp"
-#include "himm_demo/track/track.hpp"
+#include "shell/command_line.hpp"
 
 namespace sigmax::apps {
 

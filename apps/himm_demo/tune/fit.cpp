@@ -14,7 +14,7 @@
 #include <sigmax/estimation/chi_square.hpp>
 #include <sigmax/hybrid/fit_target.hpp>
 
-#include "shell/parallel.hpp"
+#include "shell/progress.hpp"
 
 namespace sigmax::apps {
 

@@ -1,10 +1,9 @@
-#include "himm_demo/subcommands.hpp"
-
 #include <sigmax/estimation/consistency.hpp>
 
 #include "himm_demo/tune/tune.hpp"
+#include "shell/command_line.hpp"
 #include "shell/json.hpp"
-#include "shell/parallel.hpp"
+#include "shell/progress.hpp"
 #include "version.hpp"
 
 namespace sigmax::apps {
