@@ -10,6 +10,8 @@
 
 namespace himm_demo_filters_test {
 
+using support::degree;
+
 /// What a name stands for, in the restatement's terms.
 struct Named {
   std::string name;

@@ -14,6 +14,8 @@
 
 namespace himm_demo_radar_test {
 
+using support::degree;
+
 /// A row of a recording: measured by the radar, or else by its position.
 struct Row {
   double time;

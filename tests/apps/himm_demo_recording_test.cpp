@@ -7,6 +7,8 @@
 
 namespace himm_demo_recording_test {
 
+using support::degree;
+
 using restatement::Index;
 using restatement::Position;
 

@@ -5,6 +5,8 @@
 
 namespace himm_demo_sensors_test {
 
+using support::degree;
+
 using State = Eigen::Matrix<double, 4, 1>;
 using Square = Eigen::Matrix<double, 4, 4>;
 

@@ -2,6 +2,8 @@
 
 namespace himm_demo_track_test {
 
+using support::degree;
+
 struct Case {
   std::string name;
   std::vector<std::string> sets;  // beside those that all cases share

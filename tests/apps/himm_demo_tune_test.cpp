@@ -7,6 +7,8 @@
 
 namespace himm_demo_tune_test {
 
+using support::degree;
+
 /// A target with noise on its acceleration of 1 m/s² that is seen to 20 m, every second or so many; the truth beside
 /// it.
 std::string recording(std::size_t rows, bool truth, std::size_t step = 1) {

@@ -5,6 +5,8 @@
 
 namespace himm_demo_velocity_test {
 
+using support::degree;
+
 constexpr double knot = 1852.0 / 3600.0;
 
 /// One measured quantity of the state x, y, vx, vy.
