@@ -62,22 +62,16 @@ void add_recording(Subcommand app, RecordingOptions& recording, RadarOptions& ra
       .type("COLUMN=VALUE")
       .repeated();
   app.option("--track-id", recording.track_id, "The column that tells tracks apart: a filter each").type("COLUMN");
-  app.option(
-         "--on-bad-time", [&](const std::string& what) { recording.skip_bad_times = what == "skip"; },
+  app.choice(
+         "--on-bad-time", {"error", "skip"}, [&](int what) { recording.skip_bad_times = what == 1; },
          "What to do where a time repeats or goes back [error]")
-      .one_of({"error", "skip"})
       .text("error|skip");
   app.triple("--origin", recording.origin, "Where positions are counted from [each track's first row]")
       .type("LAT,LON,ALT");
-  app.option(
-         "--azimuth-from",
-         [&](const std::string& from) {
-           recording.azimuth_from = from == "north"   ? AzimuthFrom::north
-                                    : from == "ahead" ? AzimuthFrom::ahead
-                                                      : AzimuthFrom::east;
-         },
+  app.choice(
+         "--azimuth-from", {"east", "north", "ahead"},
+         [&](int from) { recording.azimuth_from = static_cast<AzimuthFrom>(from); },
          "Whether azimuths run counter-clockwise from east (x), or clockwise from north (y) or from ahead (x) [east]")
-      .one_of({"east", "north", "ahead"})
       .text("east|north|ahead");
   app.triple("--radar", radar.sigma,
              "Take the recording as the truth and measure it by a simulated radar with these standard deviations")
