@@ -94,11 +94,9 @@ struct Data {
                   "angle_deg", e.angle_deg);
   }
 
-  static Json of(const GraticuleLine& line) { return object("label", line.label, "x", line.x, "y", line.y); }
-
   static Json of(const Plan& plan) {
     Json json = object("kind", "plan", "title", plan.title, "x_label", plan.x_label, "y_label", plan.y_label, "traces",
-                       plan.traces, "ellipses", plan.ellipses, "graticule", plan.graticule, "note", plan.note);
+                       plan.traces, "ellipses", plan.ellipses, "note", plan.note);
     if (!plan.focus.empty()) json["focus"] = of(plan.focus);
     return json;
   }
@@ -178,16 +176,6 @@ void HeatMap::fill(const std::function<Cell(std::size_t row, std::size_t column)
       if (!texts.empty()) texts[r][c] = std::move(one.text);
       if (!marked.empty()) marked[r][c] = one.marked;
     }
-}
-
-std::array<double, 4> Plan::bounds() const {
-  std::array<double, 4> all{NAN, NAN, NAN, NAN};
-  if (!focus.empty()) std::copy_n(focus.begin(), all.size(), all.begin());
-  for (const PlanTrace& one : traces)
-    for (std::size_t k = 0; focus.empty() && k < one.x.size(); ++k)
-      all = {std::fmin(all[0], one.x[k]), std::fmax(all[1], one.x[k]), std::fmin(all[2], one.y[k]),
-             std::fmax(all[3], one.y[k])};
-  return all;
 }
 
 std::string shown_in(const HeatMap& map, std::size_t row, std::size_t column) {

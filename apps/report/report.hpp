@@ -87,23 +87,13 @@ struct ErrorEllipse {
   double angle_deg;
 };
 
-/// A parallel or meridian, as points of the plan.
-struct GraticuleLine {
-  std::string label{};
-  std::vector<double> x{}, y{};
-};
-
 /// Traces in plan, of one scale in x and y; those with heights are shown in space as well.
 struct Plan {
   std::string title{}, x_label{}, y_label{};
   std::vector<PlanTrace> traces{};
   std::vector<ErrorEllipse> ellipses{};
-  std::vector<GraticuleLine> graticule{};
   std::vector<double> focus{};  ///< least and greatest x and y of what it opens with; empty: of all
   std::string note{};
-
-  /// Least and greatest x and y of what it opens with; NaN if there is nothing.
-  std::array<double, 4> bounds() const;
 };
 
 /// A number with its interval in each row of a chart, and where it should be; both may be open or missing (NaN).

@@ -243,9 +243,7 @@
       const extent = (axis) => d3.extent((all.length ? all : panel.traces).flatMap((trace) => trace[axis]).filter(finite));
       const [[west, east], [south, north]] = ['x', 'y'].map(extent);
       if (west === undefined) return;
-      // Around it stand numbers, and at the top and on the right what parallels and meridians are called.
-      const edge = {left: Math.max(56, 16 + 7.5 * d3.max([south, north], (y) => d3.format(',.0f')(y).length)), top: panel.graticule.length ? 22 : 10,
-        right: Math.max(30, 12 + (d3.max(panel.graticule, ({label}) => widthOf(label)) ?? 0)), bottom: 24};
+      const edge = {left: Math.max(56, 16 + 7.5 * d3.max([south, north], (y) => d3.format(',.0f')(y).length)), top: 10, right: 30, bottom: 24};
       const inner = {width: width - edge.left - edge.right, height: height - edge.top - edge.bottom};
       const metres = 1.06 * (Math.max((east - west) / inner.width, (north - south) / inner.height) || 0.01);
       const around = (from, to, pixels) => [-0.5, 0.5].map((part) => (from + to) / 2 + part * metres * pixels);
@@ -265,17 +263,7 @@
         .attr('width', inner.width).attr('height', inner.height);
       svg.append('g').attr('transform', `translate(0,${height - edge.bottom})`).call(apart(d3.axisBottom(x), x, width));
       svg.append('g').attr('transform', `translate(${edge.left},0)`).call(d3.axisLeft(y).ticks(height / 60).tickSizeOuter(0));
-      const body = svg.append('g').attr('clip-path', `url(#${clip})`), labels = [];
-      for (const {label, x: xs, y: ys} of panel.graticule) {
-        const places = xs.map((east, k) => [x(east), y(ys[k])]), ends = [0, 1].map((i) => Math.abs(places[places.length - 1][i] - places[0][i]));
-        body.append('path').attr('class', 'graticule').attr('d', d3.line()(places));
-        const [u, v] = places.filter(([u, v]) => u >= edge.left && u <= width - edge.right && v >= edge.top && v <= height - edge.bottom)
-          .sort((a, b) => ends[0] > ends[1] ? b[0] - a[0] : a[1] - b[1])[0] ?? [];
-        const at = ends[0] > ends[1] ? [width - edge.right + 6, v + 4] : [Math.max(edge.left, u - widthOf(label) / 2), edge.top - 8];
-        if (u === undefined || labels.some(([left, low]) => Math.abs(left - at[0]) < widthOf(label) + 8 && Math.abs(low - at[1]) < 14)) continue;
-        labels.push(at);
-        svg.append('text').attr('class', 'graticule-label').attr('x', at[0]).attr('y', at[1]).text(label);
-      }
+      const body = svg.append('g').attr('clip-path', `url(#${clip})`);
       for (const ellipse of panel.ellipses.filter((one) => !hidden.has(one.group))) {
         const scale = Math.abs(x(1) - x(0)), paint = colour(ellipse.group);
         body.append('ellipse').attr('rx', ellipse.semi_major * scale).attr('ry', ellipse.semi_minor * scale).attr('fill', paint).attr('stroke', paint)
@@ -331,13 +319,13 @@
       const at = (...place) => turned(place).map((one, i) => i ? height / 2 + size * (one - (top + bottom) / 2) : width / 2 + size * (one - (left + right) / 2));
       const path = (...places) => d3.line().defined(([u]) => Number.isFinite(u))(places.map((place) => at(...place)));
       svg.selectAll('*').remove();
-      svg.append('path').attr('class', 'graticule').attr('d', path(...[[0, 0], [1, 0], [1, 1], [0, 1], [0, 0]].map(([i, j]) => [xs[i], ys[j], zs[0]]), [xs[0], ys[0], zs[1]]));
+      svg.append('path').attr('class', 'box').attr('d', path(...[[0, 0], [1, 0], [1, 1], [0, 1], [0, 0]].map(([i, j]) => [xs[i], ys[j], zs[0]]), [xs[0], ys[0], zs[1]]));
       for (const {x, y} of panel.traces.filter((trace) => trace.shape === 'line' && !hidden.has(trace.group)).slice(0, 1))
         svg.append('path').attr('class', 'shadow').attr('d', path(...x.map((east, k) => [east ?? NaN, y[k] ?? NaN, zs[0]])));
       drawTraces(panel, svg, at);
       extents.forEach(([from, to], axis) => {  // its name stands beyond the end of each axis
         const [px, py] = at(...extents.map(([first, last], i) => i !== axis ? first : last + 0.07 * (i === 2 ? up : across)));
-        if (to > from) svg.append('text').attr('class', 'graticule-label').attr('text-anchor', 'middle')
+        if (to > from) svg.append('text').attr('class', 'axis-name').attr('text-anchor', 'middle')
           .attr('x', Math.max(20, Math.min(px, width - 20))).attr('y', Math.max(14, Math.min(py, height - 8))).text(names[axis]);
       });
     }

@@ -17,7 +17,6 @@ Report example() {
   Plan plan{.title = nasty, .x_label = nasty, .y_label = nasty, .traces = {}};
   plan.traces.push_back({.name = nasty, .group = nasty, .x = {0, 1}, .y = {0, 1}, .z = {0, 1}});
   plan.ellipses.push_back({nasty, 0.5, 0.5, 0.2, 0.1, 30.0});
-  plan.graticule.push_back({nasty, {0, 1}, {0.5, 0.5}});
   ResultTable table({{.key = "name", .header = nasty, .align = Align::left}, {.key = "value", .header = nasty}});
   table.row({nasty, 0.25});
   HeatMap heat{.title = nasty,
@@ -238,7 +237,7 @@ TEST_F(ReportPage, OfAFilterThatKeepsHistoriesShowsTheBestOne) {
 }
 
 /// Ships that a gate turns some plots away from, one of them with a name that is no name.
-TEST_F(ReportPage, OfTracksHasAViewForEachWithParallelsAndWhatWasTurnedAway) {
+TEST_F(ReportPage, OfTracksHasAViewForEachWithWhatWasTurnedAway) {
   std::ofstream file(directory.path() / "ships.csv");
   file << "time_s,latitude_deg,longitude_deg,ship\n";
   for (int k = 0; k < 60; ++k)
@@ -252,7 +251,7 @@ TEST_F(ReportPage, OfTracksHasAViewForEachWithParallelsAndWhatWasTurnedAway) {
                      "sigma_position_m=30", "--set", "gate_probability=0.999", "--report", page});
   const std::string text = contents(page);
   EXPECT_EQ(text.find("</script><b>"), std::string::npos);
-  EXPECT_TRUE(says(text, {"\"name\":\"Anna\"", "\"rejected by himm\"", "59.35° N", "18.1° E"}));
+  EXPECT_TRUE(says(text, {"\"name\":\"Anna\"", "\"rejected by himm\""}));
   expect_drawn(page);
 }
 

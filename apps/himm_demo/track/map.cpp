@@ -1,4 +1,4 @@
-// The map of a track, and of all, with parallels and meridians.
+// The map of a track, and of all.
 
 #include "himm_demo/track/page.hpp"
 #include "himm_demo/track/track.hpp"
@@ -7,46 +7,6 @@ namespace sigmax::apps {
 namespace {
 
 constexpr std::size_t most_on_map = 8000;  // places of all tracks together
-
-/// A round number of degrees that parts a range into three to seven.
-double round_step(double range) {
-  const double power = std::pow(10.0, std::floor(std::log10(range / 7.0)));
-  return power * (range <= 14.0 * power ? 2.0 : range <= 35.0 * power ? 5.0 : 10.0);
-}
-
-/// Parallels and meridians about a place that cross what a map shows, at round degrees.
-std::vector<GraticuleLine> graticule(const Geodetic& anchor, const Plan& plan) {
-  const auto [least_x, greatest_x, least_y, greatest_y] = plan.bounds();
-  const double half = 0.6 * std::max(greatest_x - least_x, greatest_y - least_y);
-  if (!(half > 1e-3)) return {};
-  const LocalFrame frame(anchor, 2);
-  std::array<double, 2> least{90.0, 540.0}, greatest{-90.0, -540.0};  // latitude, longitude
-  for (const double east : {-2.0, 0.0, 2.0})                          // a map may be twice as wide as it is high
-    for (const double north : {-1.0, 1.0}) {
-      const Geodetic place =
-          frame.to_geodetic({0.5 * (least_x + greatest_x) + east * half, 0.5 * (least_y + greatest_y) + north * half});
-      // The meridian of 180° is no border here.
-      const double longitude = anchor.longitude_deg + std::remainder(place.longitude_deg - anchor.longitude_deg, 360.0);
-      least = {std::min(least[0], place.latitude_deg), std::min(least[1], longitude)};
-      greatest = {std::max(greatest[0], place.latitude_deg), std::max(greatest[1], longitude)};
-    }
-  std::vector<GraticuleLine> lines;
-  for (const std::size_t i : {0U, 1U}) {
-    const double step = round_step((greatest[i] - least[i]) / (1.0 + 0.5 * static_cast<double>(i)));
-    for (double round = std::ceil(least[i] / step) * step; round <= greatest[i]; round += step) {
-      const double shown = std::remainder(round, 360.0);
-      GraticuleLine line{fmt::format("{:.6g}° {}", std::abs(shown), "NSEW"[2 * i + (shown < 0.0 ? 1 : 0)]), {}, {}};
-      for (int k = 0; k <= 24; ++k) {
-        const double along = least[1 - i] + (greatest[1 - i] - least[1 - i]) * k / 24.0;
-        const Position at = frame.to_local(i == 0 ? Geodetic{round, along, 0.0} : Geodetic{along, round, 0.0});
-        line.x.push_back(at[0]);
-        line.y.push_back(at[1]);
-      }
-      lines.push_back(std::move(line));
-    }
-  }
-  return lines;
-}
 
 void add(const Position& at, bool high, PlanTrace& trace) {
   trace.x.push_back(at[0]);
@@ -116,7 +76,6 @@ Plan TrackPage::plan(const std::string& name, const Track& track) const {
   if (track.rejections.size() == most_marks || track.restarts.size() == most_marks)
     plan.note = fmt::format("Only the first {} rejections and restarts are marked.", most_marks);
   plan.focus = usual_bounds(plan, 10.0);
-  if (geodetic) plan.graticule = graticule(*track.anchor, plan);
   return plan;
 }
 
@@ -148,7 +107,6 @@ Plan TrackPage::map_of_all() const {
     if (!made.x.empty()) plan.traces.push_back(std::move(made));
   }
   plan.focus = usual_bounds(plan, 2.0);
-  if (frame) plan.graticule = graticule(frame->origin(), plan);
   return plan;
 }
 
