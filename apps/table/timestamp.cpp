@@ -121,21 +121,4 @@ double time_of_day_after(double before, double time_of_day) {
   return before - time > day_s / 2.0 ? time + day_s : time;
 }
 
-std::string iso_time(double seconds) {
-  using namespace std::chrono;
-  if (!(seconds >= -62167219200.0 && seconds < 253402300800.0)) throw std::out_of_range("iso_time: no year 0 to 9999");
-  const microseconds total{std::llround(seconds * 1e6)};
-  const auto day = floor<days>(total);
-  const year_month_day date{sys_days{day}};
-  const hh_mm_ss time{total - day};
-  std::string text = fmt::format("{:04}-{:02}-{:02}T{:02}:{:02}:{:02}", static_cast<int>(date.year()),
-                                 static_cast<unsigned>(date.month()), static_cast<unsigned>(date.day()),
-                                 time.hours().count(), time.minutes().count(), time.seconds().count());
-  if (time.subseconds().count() != 0) {
-    text += fmt::format(".{:06}", time.subseconds().count());
-    text.erase(text.find_last_not_of('0') + 1);
-  }
-  return text + "Z";
-}
-
 }  // namespace sigmax::apps

@@ -35,8 +35,4 @@ double midnight_before(double time);
 /// more than 12 hours.
 double time_of_day_after(double before, double time_of_day);
 
-/// Seconds since 1970-01-01 UTC as a date and time, 2016-01-12T13:02:11.218Z, to the microsecond. Years 0 to 9999;
-/// others throw std::out_of_range.
-std::string iso_time(double seconds);
-
 }  // namespace sigmax::apps

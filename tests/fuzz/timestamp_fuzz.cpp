@@ -83,8 +83,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     require(parse_timestamp(*again + ".5") == static_cast<double>(whole) + 0.5, "half a second later is later");
     require(parse_timestamp(*again + "-01:00") == static_cast<double>(whole) + 3600.0,
             "an hour behind UTC it is an hour later");
-    const auto printed = parse_timestamp(iso_time(*seconds));
-    require(printed && std::abs(*printed - *seconds) <= 1e-4, "a time is printed to the microsecond");
   }
   return 0;
 }

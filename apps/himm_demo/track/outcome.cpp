@@ -1,7 +1,5 @@
 #include "himm_demo/track/track.hpp"
 
-#include "table/timestamp.hpp"
-
 namespace sigmax::apps {
 namespace {
 
@@ -120,7 +118,7 @@ void TrackOutcome::refuse_nothing(const RecordingReader& recording, const Record
 }
 
 EstimatesFile::EstimatesFile(ResultFiles* files, const std::vector<FilterSettings>& filters,
-                             const RecordingReader& recording, bool iso_times) {
+                             const RecordingReader& recording) {
   if (!files) return;
   const auto axes = static_cast<std::size_t>(recording.axes());
   std::vector<std::string> keys;
@@ -129,7 +127,6 @@ EstimatesFile::EstimatesFile(ResultFiles* files, const std::vector<FilterSetting
     cells_.push_back(std::move(cell));
   };
   add("time_s", [](auto& point, auto&) { return point.time; });
-  if (iso_times) add("time_utc", [](auto& point, auto&) { return iso_time(point.time); });
   if (recording.has_tracks()) add("track", [this](auto&, auto&) { return track_; });
   add("filter", [](auto&, auto& filter) { return filter.name; });
   // What there is of the mean, and of its standard deviations, along each axis.

@@ -79,11 +79,6 @@ class TrackRun {
   }
 
   void take(Row& row) {
-    if (options_.iso_times && recording_.times_of_day())
-      throw InputError(
-          "{}:{}: --iso-times writes dates, and a time of day has none; leave out --iso-times, or write the date "
-          "before the times of the recording",
-          file(), row.line);
     outcome_.count(row, recording_, filters_);
     auto found = targets_.find(row.track);
     if (found == targets_.end()) {
@@ -274,7 +269,7 @@ class TrackRun {
   int axes_ = recording_.axes();
   const std::vector<FilterSettings>& filters_;
   TrackSinks sinks_;
-  EstimatesFile estimates_{sinks_.files, filters_, recording_, options_.iso_times};
+  EstimatesFile estimates_{sinks_.files, filters_, recording_};
   TrackOutcome outcome_;
   std::vector<EarthTarget> prototypes_;  // each filter before its first row
   bool keeps_all_ = false;               // rows, if a filter is to be smoothed; else two

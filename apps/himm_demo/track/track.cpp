@@ -284,8 +284,6 @@ void add_track(CLI::App& program, const std::string& command) {
   add_recording(app, options->recording, options->radar);
   app.option("--predict-to", options->predict_to_text, "A time up to which each target is predicted after its last row")
       .type("TIME");
-  app.flag("--iso-times", options->iso_times,
-           "Also write times, seconds since 1970, as dates, 2016-01-12T13:02:11.218Z");
   add_seed(app, options->seed);
   add_filter_options(app, options->filters);
   add_results(app, options->output, command);

@@ -128,7 +128,6 @@ struct TrackOptions {
   std::string predict_to_text;          ///< as it was given
   std::optional<double> predict_to;     ///< a time, up to which targets that ended before are predicted
   bool predict_to_time_of_day = false;  ///< whether that is one, so of the last day
-  bool iso_times = false;               ///< a column with dates and times beside the seconds
   OutputOptions output;
 };
 
@@ -160,8 +159,7 @@ std::string verdict_of(const TrackOptions& options, const RecordingReader& recor
 class EstimatesFile {
  public:
   /// Without files it keeps nothing.
-  EstimatesFile(ResultFiles* files, const std::vector<FilterSettings>& filters, const RecordingReader& recording,
-                bool iso_times);
+  EstimatesFile(ResultFiles* files, const std::vector<FilterSettings>& filters, const RecordingReader& recording);
 
   explicit operator bool() const { return file_ && *file_; }
   void write(const std::string& track, const FilterSettings& filter, const EarthPoint& point) {

@@ -18,8 +18,7 @@ struct Evidence {
 
   /// The command that fits the noise to the recording, read as it was: by this one's options that tune has, too.
   std::string tune() const {
-    static const std::regex others(
-        " --(out|report|predict-to)[ =]('[^']*'|\"[^\"]*\"|[^ ]*)| --(quiet|wide|iso-times)\\b");
+    static const std::regex others(" --(out|report|predict-to)[ =]('[^']*'|\"[^\"]*\"|[^ ]*)| --(quiet|wide)\\b");
     std::string words = std::regex_replace(options.output.command, others, "");
     words.replace(words.find(" track "), 7, " tune ");
     const bool has_settings = !options.filters.sets.empty() || !options.filters.config.empty();
