@@ -20,7 +20,6 @@ void check_columns(const Records& records, Findings& findings) {
   const std::size_t n = records.columns.size(), line = records.tracks.begin()->second.rows.front().line;
   for (std::size_t a = 0; a < n; ++a)
     for (std::size_t b = a + 1; b < n; ++b) {
-      const Quantity &first = quantities[records.columns[a]], &second = quantities[records.columns[b]];
       const std::string &one = recording.header_of(records.columns[a]),
                         &other = recording.header_of(records.columns[b]);
       std::size_t both = 0, equal = 0;
@@ -33,11 +32,10 @@ void check_columns(const Records& records, Findings& findings) {
           ++equal;
           if (different.size() < few) different.insert(x);
         }
-      if (one != other && (different.size() < few || 20 * equal < 19 * both)) continue;
+      if (different.size() < few || 20 * equal < 19 * both) continue;
       const std::string words =
-          one == other ? fmt::format("one column, {}, for two names, {} and {}", one, first.stems[0], second.stems[0])
-                       : fmt::format("equal columns, {} and {}: one number in {} of {} rows", one, other, equal, both);
-      if (second.role == Role::truth)
+          fmt::format("equal columns, {} and {}: one number in {} of {} rows", one, other, equal, both);
+      if (quantities[records.columns[b]].role == Role::truth)
         throw InputError("{}:{}: {}: what was measured is no truth; rename the columns of the truth", recording.file(),
                          line, words);
       findings.push_back({"", line, words + "; map the right column to each name with --columns"});

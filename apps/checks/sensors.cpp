@@ -10,35 +10,29 @@ namespace {
 /// and more.
 struct Rereading {
   std::string_view text;
-  double azimuth = 1.0, more_azimuth = 0.0, elevation = 1.0, more_elevation = 0.0, range = 1.0;
+  double azimuth = 1.0, more_azimuth = 0.0, range = 1.0;
   std::optional<AzimuthFrom> if_read = std::nullopt;  ///< so, else it is no other way
 };
 
-constexpr double right = 90.0 * degree, radians = 1.0 / degree;
+constexpr double right = 90.0 * degree;
 constexpr Rereading as_read = {""};
 
 constexpr Rereading rereadings[] = {
-    {"azimuths run the other way (mirrored), clockwise from north: give --azimuth-from north", -1, right, 1, 0, 1,
+    {"azimuths run the other way (mirrored), clockwise from north: give --azimuth-from north", -1, right, 1,
      AzimuthFrom::east},
-    {"azimuths run the other way (mirrored), counter-clockwise from east: name them azimuth_deg", -1, right, 1, 0, 1,
+    {"azimuths run the other way (mirrored), counter-clockwise from east: name them azimuth_deg", -1, right, 1,
      AzimuthFrom::north},
     {"azimuths run the other way (mirrored), clockwise from ahead: give --azimuth-from ahead", -1},
     {"azimuths run the other way (mirrored), counter-clockwise from north: take them from 360°", -1, 2 * right},
     {"azimuths count from another axis: add 90°, as where east was taken for north", 1, -right},
     {"azimuths count from another axis: take 90° off, as where north was taken for east", 1, right},
-    {"azimuths are in radians: name them azimuth_rad", radians},
-    {"azimuths are in radians: name them azimuth_rad_north", radians, right - right / degree},
-    {"elevations count from the zenith: name them zenith_deg", 1, 0, -1, right},
-    {"elevations are in radians: name them elevation_rad", 1, 0, radians},
-    {"the unit of ranges is nautical miles: name them range_nmi", 1, 0, 1, 0, units::nautical_mile},
-    {"the unit of ranges is km: name them range_km", 1, 0, 1, 0, 1e3},
-    {"the unit of ranges is feet: name them range_ft", 1, 0, 1, 0, units::foot},
-    {"the unit of ranges is m: name them range_m", 1, 0, 1, 0, 1e-3}};
+    {"the unit of ranges is km: name them range_km", 1, 0, 1e3},
+    {"the unit of ranges is feet: name them range_ft", 1, 0, units::foot}};
 
 Vector position(const Record& row, const Rereading& read) {
   if (!row.is_radar()) return row.at;
-  return row.from + to_cartesian({read.range * row.range, read.azimuth * row.azimuth + read.more_azimuth,
-                                  read.elevation * row.elevation + read.more_elevation});
+  return row.from +
+         to_cartesian({read.range * row.range, read.azimuth * row.azimuth + read.more_azimuth, row.elevation});
 }
 
 /// A row of one sensor off what another one, or the truth, says at its time: where that is, and how fast.
@@ -96,18 +90,14 @@ std::vector<Reading> readings_of_sensors(const Records& records, std::size_t one
     return records.sensors[sensor].empty() ? "" : fmt::format("sensor '{}': ", records.sensors[sensor]);
   };
   const bool own = records.radars.contains(one), others = other && records.radars.contains(*other);
-  const bool in_km = records.recording.taken().find(" in km") != std::string::npos;
   for (const Rereading& reading : rereadings) {
     if (reading.if_read && reading.if_read != records.recording.azimuth_from()) continue;
-    if (reading.range == 1e-3 && !in_km) continue;
-    const auto add = [&](const Rereading& one_read, const Rereading& other_read, std::string whose) {
-      readings.push_back(
-          reading_of(offs_of(records, one, other, one_read, other_read), whose.append(reading.text), 0.5, nothing));
+    const auto add = [&](const Rereading& one_read, const Rereading& other_read, std::size_t whose) {
+      readings.push_back(reading_of(offs_of(records, one, other, one_read, other_read),
+                                    named(whose).append(reading.text), 0.5, nothing));
     };
-    if (own) add(reading, as_read, named(one));
-    if (others) add(as_read, reading, named(*other));
-    // Whatever shrinks all ranges shrinks what they are apart.
-    if (own && others && reading.range >= 1.0) add(reading, reading, "all sensors: ");
+    if (own) add(reading, as_read, one);
+    if (others) add(as_read, reading, *other);
   }
   const auto median_over = [&](const auto& number) {
     std::vector<double> numbers;

@@ -77,39 +77,29 @@ bool is_code(double number) {
   return std::abs(number) >= 77.0 && digits[0] >= '7' && digits.find_first_not_of(digits[0]) == digits.npos;
 }
 
-/// Numbers at one end of a column that are codes, or come again, farther from the others than these are from each
-/// other; or a code of which there are no others below 0.
-std::string far_numbers(const TableColumn& column) {
-  constexpr std::size_t again = 3, few_values = 8, most_codes = 3;
-  const auto all = times_of(column);
+/// A number at one end of a column that is a code, or comes again, farther from the others than these are from each
+/// other.
+std::string far_number(const TableColumn& column) {
+  constexpr std::size_t again = 3, few_values = 8;
   for (const bool above : {false, true}) {
-    std::map<double, std::size_t> rest = all;
-    std::vector<std::string> words;
-    std::size_t cells = 0;
-    while (words.size() < most_codes && rest.size() > 1) {
-      const auto [number, times] = above ? *rest.rbegin() : *rest.begin();
-      if (times < again && !is_code(number)) break;
-      rest.erase(number);
-      words.push_back(shortest(number));
-      cells += times;
-      const double low = rest.begin()->first, high = rest.rbegin()->first, next = above ? high : low;
-      const bool lone = words.size() == 1 && times >= again && low >= 0.0 && rest.size() > few_values &&
-                        std::set{-1.0, -9.0, -99.0, -999.0}.contains(number);
-      const double gap = std::abs(number - next);
-      const bool far =
-          gap > high - low && gap > 0.05 * std::abs(next) && (rest.size() >= few_values || is_code(number));
-      if ((lone || far) && column.cells.size() >= few_rows + 2 * cells)
-        return of_column(column.name, ": {} {} {}, far from the others; if {} for no value, give --missing={}", cells,
-                         cells == 1 ? "cell is" : "cells are", fmt::join(words, " or "),
-                         words.size() == 1 ? "that stands" : "these stand", fmt::join(words, ","));
-    }
+    std::map<double, std::size_t> rest = times_of(column);
+    if (rest.size() < 2) break;
+    const auto [number, times] = above ? *rest.rbegin() : *rest.begin();
+    rest.erase(number);
+    const double low = rest.begin()->first, high = rest.rbegin()->first, next = above ? high : low;
+    const double gap = std::abs(number - next);
+    if (gap > high - low && gap > 0.05 * std::abs(next) &&
+        (is_code(number) || (times >= again && rest.size() >= few_values)) &&
+        column.cells.size() >= few_rows + 2 * times)
+      return of_column(column.name, ": {} {} {}, far from the others; if that stands for no value, give --missing={}",
+                       times, times == 1 ? "cell is" : "cells are", shortest(number), shortest(number));
   }
   return "";
 }
 
 /// Numbers or words that may stand for no value.
 std::string sentinels(const LabelledTable& table, const TableColumn& column) {
-  if (column.numeric()) return far_numbers(column);
+  if (column.numeric()) return far_number(column);
   const auto unknown = std::ranges::find_if(column.words, says_unknown);
   if (unknown == column.words.end()) return "";
   return of_column(column.name,

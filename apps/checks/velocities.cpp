@@ -26,7 +26,7 @@ struct Pair {
 /// What is compared, in words.
 struct Words {
   std::string_view rates, positions, remedy_of_sign;
-  bool along_one_line, count, has_course;
+  bool along_one_line, count;
 };
 
 Complex way_at(const Path& path, double time) {
@@ -106,9 +106,6 @@ std::vector<Reading> readings_of_rates(const std::vector<Pair>& pairs, const Wor
                     words.rates, 1.0 / times.real(), words.positions, unit_of(1.0 / times.real())),
         [=](const Pair& pair) { return times.real() * pair.told; });
   if (words.along_one_line) return readings;
-  if (words.has_course)
-    add(0, "courses are in radians: name their column track_rad, or map it with --columns track_rad=…",
-        [=](const Pair& pair) { return i * std::polar(std::abs(pair.told), std::arg(pair.told / i) / degree); });
   const double turn = std::arg(times);
   if (std::abs(turn) > 4.0 * degree)
     add(1,
@@ -189,14 +186,14 @@ void check_velocities(const Records& records, Findings& findings) {
   };
   check(
       {"velocities", "positions", one ? "vx is below 0 where x falls" : "they point backwards; add 180° to a course",
-       one, counts, records.recording.holds(place_of(Role::course))},
+       one, counts},
       [](const Record& row) { return Complex(row.at[0], row.at[1]); },
       [=](const Record& row) { return Complex(row.velocity[0], one ? 0.0 : row.velocity[1]); });
   check(
-      {"vertical velocities", "heights", "count them upwards", true, counts, false},
+      {"vertical velocities", "heights", "count them upwards", true, counts},
       [](const Record& row) { return row.height; }, [](const Record& row) { return row.climb; });
   check(
-      {"range rates", "ranges", "where closing is positive, name the column closing_rate_mps", true, true, false},
+      {"range rates", "ranges", "where closing is positive, name the column closing_rate_mps", true, true},
       [](const Record& row) { return row.range; }, [](const Record& row) { return row.range_rate; });
 }
 
