@@ -57,6 +57,7 @@ void refuse_to_overwrite(const OutputOptions& options, const std::vector<std::st
     for (const std::string& name : names)
       refuse_input("--out", options.out, std::filesystem::path(options.out) / name, inputs);
   refuse_to_overwrite("--report", options.report, inputs);
+  refuse_to_overwrite("--summary", options.summary, inputs);
 }
 
 ResultFiles::ResultFiles(const OutputOptions& options) : wide_(options.wide) {
@@ -67,6 +68,7 @@ ResultFiles::ResultFiles(const OutputOptions& options) : wide_(options.wide) {
   refuse_standard_output("--report", options.report);
   if (!options.out.empty()) directory_ = output_directory(options.out);
   if (!options.report.empty()) report_.emplace(options.report);
+  if (!options.summary.empty()) summary_.emplace(options.summary);
 }
 
 AtomicFile* ResultFiles::open(const std::string& name) {
@@ -81,6 +83,13 @@ void ResultFiles::write(const std::string& name, std::string_view text) {
 
 bool ResultFiles::report_wanted() const { return report_ || (wanted() && has_reports()); }
 
+void ResultFiles::write_summary(std::string_view text) {
+  if (summary_)
+    summary_->write(text);
+  else
+    write("summary.json", text);
+}
+
 void ResultFiles::write_report(const Report& report) {
   write(report_data_name, dumped(data_of(report)) + "\n");
   if (report_)
@@ -90,16 +99,20 @@ void ResultFiles::write_report(const Report& report) {
 }
 
 void ResultFiles::commit() {
-  if (files_.empty() && !report_) return;
-  for (AtomicFile& file : files_) file.store();
-  if (report_) report_->store();
-  for (AtomicFile& file : files_) file.commit();
-  if (report_) report_->commit();
+  std::vector<AtomicFile*> all;
+  for (AtomicFile& file : files_) all.push_back(&file);
   std::vector<std::string> written;
   if (!names_.empty())
     written.push_back(fmt::format("{}{}{} to {}", fmt::join(names_.begin(), names_.end() - 1, ", "),
                                   names_.size() > 1 ? " and " : "", names_.back(), directory_.native()));
-  if (report_) written.push_back(report_->path().native());
+  for (auto* const file : {&summary_, &report_}) {
+    if (!*file) continue;
+    all.push_back(&**file);
+    written.push_back((*file)->path().native());
+  }
+  if (all.empty()) return;
+  for (AtomicFile* const file : all) file->store();
+  for (AtomicFile* const file : all) file->commit();
   const std::string words = fmt::format("Wrote {}", fmt::join(written, ", and "));
   fmt::print("\n{}", wrapped(printable(words), wide_ ? any_width : terminal_width));
 }
@@ -144,8 +157,8 @@ void Result::fact(const Path& path, const std::vector<std::string>& words) { at(
 void Result::publish(ResultFiles& files) {
   std::fputs(text.c_str(), stdout);
   for (const auto& [name, rows] : tables_) files.write(name, rows);
-  if (files.report_wanted()) fact({"report_data"}, report_data_name);
-  files.write("summary.json", dumped(*summary_, 2) + "\n");
+  if (files.wanted() && files.report_wanted()) fact({"report_data"}, report_data_name);
+  files.write_summary(dumped(*summary_, 2) + "\n");
   if (files.report_wanted()) files.write_report(page);
   files.commit();
 }

@@ -13,6 +13,7 @@ namespace sigmax::apps {
 struct OutputOptions {
   std::string out;      ///< a directory for files, or empty
   std::string report;   ///< the file of the report, or empty: that of the directory, if there is one
+  std::string summary;  ///< the same of the summary
   bool quiet = false;   ///< no progress bar
   bool wide = false;    ///< rows of tables are not broken
   std::string command;  ///< as typed, for the record
@@ -53,6 +54,8 @@ class ResultFiles {
   /// says.
   bool report_wanted() const;
 
+  void write_summary(std::string_view text);
+
   /// Writes the page, and beside the other files its data, `report_data_name`, which the summary should name.
   void write_report(const Report& report);
 
@@ -64,7 +67,7 @@ class ResultFiles {
   bool wide_;
   std::list<AtomicFile> files_;
   std::vector<std::string> names_;
-  std::optional<AtomicFile> report_;  // where it is not in the directory
+  std::optional<AtomicFile> report_, summary_;  // where they are not in the directory
 };
 
 /// Rows that are too many to keep: a CSV file that is filled as they come, or nothing where no files are wanted.

@@ -208,6 +208,12 @@ Settings Settings::read(const std::filesystem::path& file, std::span<const std::
   return settings;
 }
 
+Settings Settings::parse(std::string_view text) {
+  Settings settings;
+  settings.layers_.push_back(Layer::of({"settings"}, text));
+  return settings;
+}
+
 const Settings::Layer* Settings::find(std::string_view key) const {
   const Layer* found = nullptr;
   for (const auto& layer : layers_) {

@@ -31,6 +31,9 @@ class Settings {
   /// An empty path stands for no file. Throws InputError for what is not TOML, UsageError for a set without "key=".
   static Settings read(const std::filesystem::path& file, std::span<const std::string> sets = {});
 
+  /// Of a text in TOML.
+  static Settings parse(std::string_view text);
+
   bool has(std::string_view key) const;
 
   /// @{

@@ -141,32 +141,16 @@ TEST_F(Tune, SetsAsideWhatNoFilterExpectsAndTrackGatesIt) {
   const auto best = (directory.path() / "best.toml").string(), summary = (directory.path() / "s.json").string(),
              page = (directory.path() / "p.html").string();
   const auto ending = program::succeeded(tune(quickly(file, {"--out", best, "--summary", summary, "--report", page})));
-  EXPECT_TRUE(says(ending.on_one_line(), {"4 rows set aside", "flight.csv:62, 63, 202, 335."}));
+  EXPECT_TRUE(says(ending.on_one_line(), {"4 rows set aside", "flight.csv:62", "flight.csv:335."}));
   const std::string toml = contents(best);
   EXPECT_NEAR(value_in(toml, "sigma_position_m"), 20.0, 2.0) << toml;
   EXPECT_NEAR(value_in(toml, "sigma_w"), 1.0, 0.3) << toml;
   const auto set_aside = nlohmann::json::parse(contents(summary)).at("filters").at("imm").at("best").at("set_aside");
   ASSERT_EQ(set_aside.size(), 4U);
-  EXPECT_EQ(set_aside[2].at("line"), 202);
-  EXPECT_TRUE(says(contents(page), {"Rows set aside"}));
+  EXPECT_TRUE(says(set_aside[2].get<std::string>(), {"flight.csv:202"}));
+  EXPECT_TRUE(says(contents(page), {"held out, by fold"}));
   const auto tracked = program::succeeds(SIGMAX_HIMM_DEMO, {"track", file, "--config", best});
   EXPECT_TRUE(says(tracked.on_one_line(), {"Measurements that the gate turned away: imm 4"}));
-}
-
-TEST_F(Tune, LeavesOutOfTheFitWhatOnlyTheRowsAfterTellToBeStray) {
-  const std::set<std::size_t> stray = {60, 130, 200};
-  const auto text = changed(recording(240, false, 10), [&](std::vector<double>& row, std::size_t k) {
-    if (stray.contains(k)) row[2] += 250.0;
-  });
-  const auto file = directory.write("slow.csv", text);
-  const auto best = (directory.path() / "best.toml").string(), summary = (directory.path() / "s.json").string();
-  const auto ending = program::succeeded(tune(words("--set filters=imm --models cwna --starts 1 --folds 2") +
-                                              Arguments{file, "--out", best, "--summary", summary}));
-  EXPECT_TRUE(says(ending.on_one_line(), {"3 rows left out of the fit", "slow.csv:62, 132, 202."}));
-  const auto found = nlohmann::json::parse(contents(summary)).at("filters").at("imm");
-  EXPECT_EQ(found.at("left_out").at(2).at("line"), 202);
-  EXPECT_NEAR(found.at("numbers").at("sigma_position_m").at("value").get<double>(), 20.0, 3.0);
-  EXPECT_NEAR(found.at("numbers").at("sigma_w of cwna").at("value").get<double>(), 1.0, 0.15);
 }
 
 TEST_F(Tune, FitsNoSigmaBelowTheRoundingOfItsColumn) {
@@ -178,36 +162,15 @@ TEST_F(Tune, FitsNoSigmaBelowTheRoundingOfItsColumn) {
       tune(quickly(directory.write("flight.csv", text), {"--out", best, "--set", "sigma_position_m=40"})));
   EXPECT_TRUE(says(ending.output, {"no less: its column is rounded"}));
   EXPECT_NEAR(value_in(contents(best), "sigma_position_m"), 50.0 / std::sqrt(12.0), 0.01);
-  const auto far_north = changed(recording(200, false), [](std::vector<double>& row, std::size_t k) {
-    row = {row[0], 60.0 + 1e-9 * row[1], 0.001 * static_cast<double>(k / 20)};
-  });
-  const auto places = "time_s,latitude_deg,longitude_deg" + far_north.substr(far_north.find('\n'));
-  program::succeeded(
-      tune(quickly(directory.write("places.csv", places), {"--out", best, "--set", "sigma_position_m=40"})));
-  EXPECT_NEAR(value_in(contents(best), "sigma_position_m"), 0.001 * 60.0 * 1852.0 * 0.5 / std::sqrt(12.0), 0.01);
 }
 
-TEST_F(Tune, FindsTheNoisesWhereFixesAreHoursApartAndSaysWhereItMayNot) {
+TEST_F(Tune, FindsTheNoisesWhereFixesAreHoursApart) {
   const auto text = changed(recording(150, false), [](std::vector<double>& row, std::size_t) { row[0] *= 7200.0; });
   const auto file = directory.write("collar.csv", text);
   const auto best = (directory.path() / "best.toml").string();
-  const std::string_view strays = "100 % of the rows are predicted no better than stray ones";
-  const auto found = program::succeeded(tune(quickly(file, {"--out", best}))).on_one_line();
+  program::succeeded(tune(quickly(file, {"--out", best})));
   EXPECT_NEAR(value_in(contents(best), "sigma_position_m"), 20.0, 4.0) << contents(best);
   EXPECT_NEAR(7200.0 * 7200.0 * value_in(contents(best), "sigma_w"), 1.0, 0.4) << contents(best);
-  EXPECT_EQ(found.find(strays), std::string::npos) << found;
-  EXPECT_TRUE(says(program::succeeded(tune(quickly(file, {"--keep", "models"}))).on_one_line(), {strays}));
-}
-
-TEST_F(Tune, FitsASigmaForEachAxisWhereTheRowsScatterOtherwiseAlongTheOther) {
-  const auto text = changed(recording(400, false), [](std::vector<double>& row, std::size_t k) {
-    row[2] += 10.0 * static_cast<double>(k * k % 25 * 7919 % 25) - 120.0;  // uniform, 70 m
-  });
-  const auto best = (directory.path() / "best.toml").string();
-  program::succeeded(tune(quickly(directory.write("flight.csv", text), {"--out", best})));
-  const std::string toml = contents(best), y = toml.substr(toml.find(',', toml.find("sigma_position_m = [")) + 1);
-  EXPECT_NEAR(value_in(toml, "sigma_position_m"), 20.0, 3.0) << toml;
-  EXPECT_NEAR(std::stod(y), 73.0, 10.0) << toml;
 }
 
 TEST_F(Tune, TurnsVelocitiesOfRowsWithoutAPlaceIntoTheFrame) {
@@ -225,26 +188,6 @@ TEST_F(Tune, TurnsVelocitiesOfRowsWithoutAPlaceIntoTheFrame) {
   EXPECT_NEAR(value_in(contents(best), "sigma_velocity_mps"), 0.4, 0.2) << contents(best);
 }
 
-TEST_F(Tune, SaysWhereTheSigmasHadToGrowFarBeyondWhatWasFitted) {
-  const auto said = [&](double most) {  // by a sensor of speed that tells no more than that
-    std::string text = "time_s,x_m,y_m,vx_mps,vy_mps\n";
-    double x = 0.0;
-    for (int k = 0; k < 200; ++k) {
-      const double speed = 12.0 + 6.0 * std::sin(k / 20.0), noise = (k * k * 7919 % 11 - 5) / 20.0;
-      x += speed;
-      text += fmt::format("{},{:.6g},{:.6g},{:.6g},{:.6g}\n", k, x + (k * k % 25 * 7919 % 25 - 12) / 5.0,
-                          ((k + 7) * (k + 7) % 25 * 7919 % 25 - 12) / 5.0, std::min(speed + noise, most),
-                          (k * k % 13 * 104729 % 13 - 6) / 20.0);
-    }
-    return program::succeeded(tune({directory.write("speeds.csv", text), "--set", "filters=imm", "--set",
-                                    "sigma_velocity_mps=0.5", "--models", "dwna+dwpa"}))
-        .on_one_line();
-  };
-  EXPECT_TRUE(
-      says(said(12.7), {"times the sigmas that were fitted, so that the regions stated hold 95 % of the rows"}));
-  EXPECT_EQ(said(99.0).find("times the sigmas"), std::string::npos);
-}
-
 TEST_F(Tune, TakesNoEvenMotionForRounding) {
   const auto text = changed(recording(120, false), [](std::vector<double>& row, std::size_t k) {
     const double noise = std::cos(7.0 * static_cast<double>(k * k));
@@ -254,28 +197,7 @@ TEST_F(Tune, TakesNoEvenMotionForRounding) {
   EXPECT_EQ(ending.output.find("its column is rounded"), std::string::npos) << ending.output;
 }
 
-// A mode may pass a row that is a thousand times as far off as its likely ones; one such row is no reason to change
-// all.
-TEST_F(Tune, OneRowAfterAPauseChangesNoSigma) {
-  std::mt19937_64 generator(1);
-  std::normal_distribution<double> normal(0.0, 2.0);
-  const auto text = sigmax::apps::recording(
-      "time_s,x_m,y_m,true_x_m,true_y_m",
-      [&](int k) {
-        const double x = 100.0 + 12.0 * k, y = 50.0 - 5.0 * k;
-        return fmt::format("{},{},{},{},{}", k < 120 ? k : k + 300, x + normal(generator), y + normal(generator), x, y);
-      },
-      240);
-  const auto file = directory.write("pause.csv", text);
-  const auto best = (directory.path() / "best.toml").string();
-  const auto ending = program::succeeded(
-      tune(Arguments{file, "--out", best} +
-           words("--set filters=himm --set sigma_position_m=5 --set sigma_w=1 --starts 1 --folds 2")));
-  EXPECT_TRUE(says(ending.on_one_line(), {"a step of 301 s is among those of 1 s", "RMSE against the truth"}));
-  EXPECT_NEAR(value_in(contents(best), "sigma_position_m"), 2.0, 0.3) << contents(best);
-}
-
-TEST_F(Tune, FitsTheNoiseBesideManyOutliersAndBesideSigmasOfTheRows) {
+TEST_F(Tune, FitsTheNoiseBesideManyOutliers) {
   const auto best = (directory.path() / "best.toml").string();
   const auto outliers = changed(recording(400, false), [](std::vector<double>& row, std::size_t k) {
     if (k > 5 && k % 14 == 0) row[1] += k % 28 == 0 ? 900.0 : -600.0;
@@ -283,42 +205,6 @@ TEST_F(Tune, FitsTheNoiseBesideManyOutliersAndBesideSigmasOfTheRows) {
   program::succeeded(tune(quickly(directory.write("flight.csv", outliers), {"--out", best})));
   EXPECT_NEAR(value_in(contents(best), "sigma_position_m"), 20.0, 3.0) << contents(best);
   EXPECT_NEAR(value_in(contents(best), "sigma_w"), 1.0, 0.4) << contents(best);
-  std::string stated = recording(400, false);  // that say 60 for 20
-  for (std::size_t at = 0; (at = stated.find('\n', at)) != stated.npos; at += 4)
-    stated.insert(at, at < 20 ? ",sigma_position_m" : ",60"), at += at < 20 ? 17 : 0;
-  const auto told = program::succeeded(tune(quickly(directory.write("stated.csv", stated), {"--out", best})));
-  EXPECT_TRUE(says(told.on_one_line(), {fmt::format(" {:.4g}  ±", value_in(contents(best), "sigma_w"))}))
-      << "as fitted";
-}
-
-TEST_F(Tune, SaysHowGreatAnErrorTheFilterExpectsWhereItIsGreater) {
-  const auto beside = [&](double by) {
-    const auto text = changed(recording(120, true), [&](std::vector<double>& row, std::size_t) { row[3] += by; });
-    return program::succeeded(tune(quickly(directory.write("flight.csv", text)))).on_one_line();
-  };
-  EXPECT_TRUE(says(beside(150.0), {"m now. The filter takes it for 1", "m: errors that last from row to row"}));
-  EXPECT_EQ(beside(0.0).find("takes it for"), std::string::npos);
-}
-
-TEST_F(Tune, SaysWhereToBeginWithSmallNumbersAndWhatBecameWorse) {
-  const auto small = changed(recording(100, true), [](std::vector<double>& row, std::size_t) {
-    for (std::size_t i = 1; i < row.size(); ++i) row[i] *= 1e-9;
-  });
-  const auto ending = program::succeeded(tune(quickly(directory.write("small.csv", small))));
-  EXPECT_TRUE(says(ending.on_one_line(), {"begin nearer, with --set sigma_position_m="}));
-  // another target, an hour later, which the settings before take for the same, and those after do not
-  std::mt19937_64 generator(1);
-  std::normal_distribution<double> normal(0.0, 2.0);
-  const auto two = sigmax::apps::recording(
-      "time_s,x_m,true_x_m",
-      [&](int k) {
-        const double x = k < 120 ? 100.0 + 12.0 * k : -20000.0 - 8.0 * k;
-        return fmt::format("{},{},{}", k < 120 ? k : k + 3600, x + normal(generator), x);
-      },
-      240);
-  const auto worse = program::succeeded(
-      tune(quickly(directory.write("two.csv", two), words("--set sigma_position_m=5 --set sigma_w=1"))));
-  EXPECT_TRUE(says(worse.on_one_line(), {"which is worse: see the rows set aside"}));
 }
 
 TEST_F(Tune, LeavesASigmaAsItIsWhoseColumnsNeverChange) {
@@ -360,29 +246,43 @@ TEST_F(Tune, FindsTheNoiseOfVelocitiesBesideThatOfATargetWhichTurns) {
   };
   const auto file = directory.write("flight.csv", apps::recording("time_s,x_m,y_m,vx_mps,vy_mps", row, 500));
   const auto best = (directory.path() / "best.toml").string();
-  for (const std::string models : {"known_turn", "cwna+known_turn"}) {
-    const auto ending =
-        program::succeeded(tune(words("--set filters=imm --starts 1 --set sigma_velocity_mps=1 --models " + models) +
-                                Arguments{file, "--out", best}));
-    EXPECT_NEAR(value_in(contents(best), "sigma_velocity_mps"), 0.5, 0.1) << contents(best);
-    if (models == "known_turn") EXPECT_NEAR(value_in(contents(best), "sigma_w"), 0.5, 0.1) << contents(best);
-    // Of a mode that no row is in nothing is told, where slopes and curvature vanish alike.
-    EXPECT_EQ(models == "known_turn", !says(ending.output, {"not determined by these rows"})) << ending.output;
-  }
+  program::succeeded(tune(words("--set filters=imm --starts 1 --set sigma_velocity_mps=1 --models known_turn") +
+                          Arguments{file, "--out", best}));
+  EXPECT_NEAR(value_in(contents(best), "sigma_velocity_mps"), 0.5, 0.1) << contents(best);
+  EXPECT_NEAR(value_in(contents(best), "sigma_w"), 0.5, 0.1) << contents(best);
+}
+
+/// Of recordings of which a fit once made a filter 1.5 to 2.4 times worse than its defaults.
+TEST_F(Tune, IsNeverWorseThanWhatItBeganWithAsWritten) {
+  const std::string file = SIGMAX_DATA "/../cases/tune_himm_worse_sky_40774f.csv";
+  if (!std::filesystem::exists(file)) GTEST_SKIP() << "no recording " << file;
+  const auto best = (directory.path() / "best.toml").string(), summary = (directory.path() / "s.json").string();
+  const auto found = [&](const Arguments& more) {
+    program::succeeded(tune(Arguments{file, "--summary", summary} + more));
+    return nlohmann::json::parse(contents(summary)).at("filters").at("himm").at("candidates");
+  };
+  const auto first = found(Arguments{"--out", best} + words("--set filters=himm"));
+  double least = first.at("as before").at("fitted").get<double>(), fitted = least;
+  for (const auto& [name, candidate] : first.items())
+    if (candidate.at("remark").get<std::string>().starts_with("best")) fitted = candidate.at("fitted").get<double>();
+  EXPECT_LE(fitted, least);
+  const auto again =
+      found(Arguments{"--config", best} + words("--set filters=himm --keep models,sensors,transition,lift"));
+  EXPECT_NEAR(again.at("as before").at("fitted").get<double>(), fitted, 1e-9) << "what was written is what was scored";
 }
 
 TEST_F(Tune, TellsTheErrorOfEachNumberAndWhichTheRowsDoNotTell) {
   const auto ending = program::succeeded(tune(quickly(directory.write("flight.csv", recording(300, false)))));
   const std::string after = ending.output.substr(ending.output.find("standard error"));
   EXPECT_TRUE(says(after, {"sigma_w of dwna", "± 0.", "sigma_position_m"}));
-  EXPECT_EQ(after.find("not determined"), std::string::npos) << after;
+  EXPECT_EQ(after.find("not identifiable"), std::string::npos) << after;
   std::mt19937_64 generator(5);
   std::normal_distribution<double> noise(0.0, 20.0);  // of a target that flies straight, without noise of its own
   const auto straight = changed(recording(60, false), [&](std::vector<double>& row, std::size_t) {
     row = {row[0], 80.0 * row[0] + noise(generator), noise(generator)};
   });
   const auto flat = program::succeeded(tune(quickly(directory.write("straight.csv", straight))));
-  EXPECT_TRUE(says(flat.output, {"not determined by these rows"}));
+  EXPECT_TRUE(says(flat.output, {"not identifiable from these rows"}));
 }
 
 struct Refusal {
@@ -439,7 +339,7 @@ TEST(HimmDemoTune, BearingsAreJudgedFromAGivenStartAndRefusedWithoutOne) {
   std::mt19937_64 generator(7);
   std::normal_distribution<double> noise(0.0, 0.1);
   const auto row = [&](int k) {
-    return exact(k) + "," + exact(std::atan2(5000.0 - 20.0 * k, 1000.0 + 50.0 * k) / degree + noise(generator));
+    return exact(k) + "," + exact(std::atan2(5000.0 - 20.0 * k, 1000.0 + 50.0 * k) / support::degree + noise(generator));
   };
   const TemporaryDirectory directory;
   const std::string file = directory.write("bearings.csv", apps::recording("time_s,azimuth_deg", row, 60));

@@ -9,13 +9,17 @@ namespace {
 using Point = std::vector<double>;
 using Function = std::function<double(const Point&)>;
 
+constexpr double least_gain = 1e-4;
+
 /// To 2 % of a logarithm, or until the function was asked `most` times. It draws no random numbers.
 void descend(Function function, const FitSearch& space, const Point& start, std::size_t most) {
   const auto n = static_cast<unsigned>(start.size());
   nlopt::opt optimiser(n == 1 ? nlopt::LN_SBPLX : nlopt::LN_BOBYQA, n);
   optimiser.set_lower_bounds(space.lower);
   optimiser.set_upper_bounds(space.upper);
-  optimiser.set_initial_step(space.step);
+  Point step = space.step;  // which has to fit twice between the bounds
+  for (std::size_t i = 0; i < step.size(); ++i) step[i] = std::min(step[i], 0.4 * (space.upper[i] - space.lower[i]));
+  optimiser.set_initial_step(step);
   optimiser.set_xtol_abs(0.02);
   optimiser.set_ftol_abs(1e-5);
   optimiser.set_maxeval(static_cast<int>(most));
@@ -59,8 +63,13 @@ Fit search(const std::vector<FitParameter>& parameters, const Function& loss, co
     std::vector<Point> starts;
     for (std::size_t s = 0; s < std::min(options.starts, asked.size()); ++s) starts.push_back(asked[s].second);
     for (const Point& start : starts) descend(remembered, space, start, options.local * (n + 1));
-    best_first();
-    if (options.starts > 0) descend(function, space, Point(asked.front().second), options.local * (n + 1));
+    for (std::size_t round = 0; round < options.rounds; ++round) {  // from there with new models of it
+      best_first();
+      const auto [before, start] = asked.front();
+      descend(remembered, space, start, options.local * (n + 1));
+      best_first();
+      if (!(before - asked.front().first > least_gain)) break;
+    }
   });
 }
 

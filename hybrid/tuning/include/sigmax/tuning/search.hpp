@@ -12,6 +12,7 @@ struct SearchOptions {
   std::size_t samples = 64;  ///< for each number: points of a Sobol sequence within all bounds, beside the start
   std::size_t starts = 2;    ///< of all these the best so many are where a local search begins
   std::size_t local = 25;    ///< evaluations of a local search, for each number and one more
+  std::size_t rounds = 1;    ///< further local searches about the best of all, while they gain
   std::uint64_t seed = 1;    ///< which part of the sequence
   std::vector<std::vector<double>> also{};  ///< further points to begin with: values of the parameters
 };
