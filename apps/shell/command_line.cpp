@@ -3,13 +3,13 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <atomic>
 #include <cerrno>
 #include <charconv>
 #include <csignal>
 #include <cstdio>
 #include <iostream>
-#include <map>
 #include <memory>
 #include <sstream>
 #include <system_error>
@@ -245,9 +245,10 @@ Option Subcommand::option(const std::string& name, const std::function<void(cons
 
 Option Subcommand::choice(const std::string& name, const std::vector<std::string>& names,
                           const std::function<void(int)>& chosen, const std::string& meaning) {
-  std::map<std::string, int> places;
-  for (const std::string& one : names) places.emplace(one, static_cast<int>(places.size()));
-  return Option(app_.add_option_function<int>(name, chosen, meaning)->transform(CLI::CheckedTransformer(places)));
+  const std::function<void(const std::string&)> read = [=](const std::string& given) {
+    chosen(static_cast<int>(std::ranges::find(names, given) - names.begin()));
+  };
+  return option(name, read, meaning).one_of(names);
 }
 
 Option Subcommand::flag(const std::string& name, bool& value, const std::string& meaning) {
