@@ -200,19 +200,6 @@ void run_esm(const EsmOptions& options) {
   };
   World world{"Which platform is it?", {{contestants(esm, options), drawn}}};
   ResultFiles files(options.draws.output);
-  // A row for each run with the truth, the readings, and what each classifier believed at last.
-  std::vector<std::string> keys = {"run", "platform", "readings"};
-  for (const Contestant& one : world.conditions.front().contestants)
-    for (const std::string& platform : labels_of(esm.platform)) keys.push_back(one.name + ": " + platform);
-  RowFile rows(files, "runs.csv", keys);
-  world.see = [&](const SeenRun& run) {
-    if (!rows) return;
-    const auto readings =
-        each(drawn(run.run).reports, [&](const Readings& report) { return esm.reading.label(report.front()); });
-    std::vector<Cell> cells = {run.run + 1, esm.platform.label(run.truth), fmt::format("{}", fmt::join(readings, " "))};
-    for (const Trace& trace : run.traces) cells.insert(cells.end(), trace.belief.begin(), trace.belief.end());
-    rows.write(cells);
-  };
   world.tell = [&](const std::vector<Scores>& scores, Result& result) { tell(options, scores.front(), result); };
   run_world(world, options.draws, files);
 }

@@ -7,6 +7,16 @@
 namespace sigmax::apps {
 namespace {
 
+/// What a contestant made of one run.
+struct Trace {
+  /// After each report: 1 if the truth alone is the most likely pattern, 1/n if it is one of n, else 0.
+  std::vector<double> credit;
+  /// Probability or possibility of every pattern after the last report.
+  std::vector<double> belief;
+  /// Reports that would have excluded every pattern; the classifier passed over them.
+  std::size_t refused = 0;
+};
+
 /// The contestant's classifier, from its prior on, over the reports of a run.
 Trace follow(const Contestant& contestant, const Drawn& drawn) {
   Trace trace;
@@ -47,8 +57,14 @@ Study::Row row_of(const Drawn& drawn, const std::vector<Contestant>& contestants
   return row;
 }
 
-SeenRun run_of(const Study::Row& row, std::size_t condition, std::size_t run, std::size_t contestants) {
-  SeenRun seen{condition, run, static_cast<std::size_t>(row[0]), {}};
+/// A run, and what each contestant made of it.
+struct SeenRun {
+  std::size_t truth;
+  std::vector<Trace> traces;
+};
+
+SeenRun run_of(const Study::Row& row, std::size_t contestants) {
+  SeenRun seen{static_cast<std::size_t>(row[0]), {}};
   const auto reports = static_cast<std::ptrdiff_t>(row[1]);
   const auto size = static_cast<std::ptrdiff_t>((row.size() - 2) / contestants);
   for (auto at = row.begin() + 2; at != row.end(); at += size)
@@ -96,10 +112,8 @@ void run_world(const World& world, const DrawOptions& options, ResultFiles& file
                       return row_of(drawn, drawn.contestants.empty() ? condition.contestants : drawn.contestants);
                     }};
   const auto add_row = [&](std::size_t cell, const Study::Row& row) {
-    const std::size_t condition = cell / options.runs;
-    const SeenRun seen = run_of(row, condition, cell % options.runs, scores[condition].size());
-    add(scores[condition], seen);
-    if (world.see) world.see(seen);
+    Scores& own = scores[cell / options.runs];
+    add(own, run_of(row, own.size()));
   };
   if (!run(study, {.threads = options.threads}, options.output, add_row)) return;
   Result result = result_of_contest(world.title, options.output, each(scores.front(), &Score::name));

@@ -35,23 +35,6 @@ struct Condition {
   std::function<Drawn(std::size_t run)> draw;
 };
 
-/// What a contestant made of one run.
-struct Trace {
-  /// After each report: 1 if the truth alone is the most likely pattern, 1/n if it is one of n, else 0.
-  std::vector<double> credit;
-  /// Probability or possibility of every pattern after the last report.
-  std::vector<double> belief;
-  /// Reports that would have excluded every pattern; the classifier passed over them.
-  std::size_t refused = 0;
-};
-
-/// A run, and what each contestant made of it.
-struct SeenRun {
-  std::size_t condition, run;
-  std::size_t truth;
-  std::vector<Trace> traces;
-};
-
 /// What all runs together say of one contestant.
 struct Score {
   std::string name;
@@ -76,7 +59,6 @@ struct World {
   std::string title;
   std::vector<Condition> conditions;
   std::function<void(const std::vector<Scores>& scores, Result& result)> tell{};  ///< the scores of each condition
-  std::function<void(const SeenRun& run)> see{};                                  ///< every run, in order, if wanted
 };
 
 /// Draws all runs of all conditions, by threads or ranks, and publishes what the world tells of them.
