@@ -47,11 +47,6 @@ std::string text_of(const Measured& measured, std::size_t imm) {
                      number_text(half_width, 1), measured.statement->figure->relative ? " %" : "");
 }
 
-/// After scenario and group of whom a figure is, and when: "1/2 himm : imm, during z".
-std::string place_and_subject_of(const Measured& measured) {
-  return place_of(*measured.statement) + " " + measured.subject();
-}
-
 /// Parts of the table of sentences: with a verdict for each preset, HIMM being what the preset takes for it; and with
 /// one for each reading of (57).
 struct SentencePart {
@@ -89,7 +84,7 @@ ResultTable deciding_figures(const std::vector<Judged>& all) {
     const auto inside = [](const Measured& one) { return one.finding[0] == Finding::inside; };
     table.row_of({{{.header = "no."}, s + 1},
                   {{.header = "sure"}, fmt::format("{}/{}", std::ranges::count_if(figures, inside), figures.size())},
-                  {of_words("", "least favourable"), place_and_subject_of(worst)},
+                  {of_words("", "least favourable"), place_of(*worst.statement) + " " + worst.subject()},
                   {{.header = "correct IMM"}, text_of(worst, 0)},
                   {{.header = "released IMM"}, text_of(worst, 1)}});
   }
@@ -124,14 +119,14 @@ ResultTable figures_table(const Judgements& all) {
   return table;
 }
 
-/// RMSE of the measurement and every filter, by phase and axis, in all conditions; a part has what is of one of them.
+/// RMSE of the measurement and every filter, by phase and axis, in all conditions.
 ResultTable rmse_table(const std::vector<Condition>& conditions) {
   ResultTable table;
   for (const auto& [preset, scenario, group, tally] : conditions)
     for (std::size_t of = 0; of < tally.size(); ++of) {
-      std::vector<Field> fields = {{{.key = "preset", .parts = 0}, name_of(preset)},
-                                   {{.key = "scenario", .parts = 0}, scenario},
-                                   {{.key = "group", .parts = 0}, group},
+      std::vector<Field> fields = {{{.key = "preset"}, name_of(preset)},
+                                   {{.key = "scenario"}, scenario},
+                                   {{.key = "group"}, group},
                                    {{.key = "filter"}, tally.name(of)}};
       for (std::size_t i = 0; i < 9; ++i)
         fields.push_back({{.key = fmt::format("rmse_{}_{}_m", phase_names[i / 3], axis_names[i % 3]), .interval = true},
@@ -200,7 +195,7 @@ void report(const ReproduceOptions& options, const std::vector<Condition>& condi
     for (const char* reading : himm_readings) all[preset][reading] = judge(conditions, preset, reading);
   const auto of = [&](Preset preset) -> const std::vector<Judged>& { return all.at(preset).at(reading_of(preset)); };
   const ResultTable sentences = sentences_table(all), claims = sentences.part(SentencePart::claims, "no."),
-                    readings = sentences.part(SentencePart::readings, "no."), rmse = rmse_table(conditions);
+                    readings = sentences.part(SentencePart::readings, "no.");
   const std::string runs =
       fmt::format("{} runs of each scenario, group and preset, seed {}", options.runs, options.seed);
   result.facts("runs", options.runs, "seed", options.seed);
@@ -221,7 +216,7 @@ void report(const ReproduceOptions& options, const std::vector<Condition>& condi
       "((yes): only against the released IMM. ?: undecided. sel., rec., rel., env.: selected, own_recentred, released, "
       "and envelope, which is (A-1) without (A-4).)");
   result.add(figures_table(all), {.printed = false, .csv = "figures.csv"});
-  result.add(rmse, {.printed = false, .csv = "filters.csv"});
+  result.add(rmse_table(conditions), {.printed = false, .csv = "filters.csv"});
 
   page.panels.emplace_back(ReportTable{.title = "The sentences",
                                        .table = claims,
@@ -256,18 +251,6 @@ void report(const ReproduceOptions& options, const std::vector<Condition>& condi
   }
   result.say("(Filters whose names end with 5 have sigma_w = 5.)");
   result.add(readings, {.printed = false, .title = each_reading, .note = "(yes): only against the released IMM."});
-  std::size_t row = 0;
-  for (const auto& condition : conditions) {
-    result.add(rmse.part(1, "", row, condition.tally.size()),
-               {.printed = false, .summary = {"rmse", name_of(condition.preset), place_of(condition)}});
-    row += condition.tally.size();
-  }
-  for (const Preset preset : both_presets)
-    for (std::size_t s = 0; s < of(preset).size(); ++s)
-      for (const Measured& measured : of(preset)[s].figures)
-        result.facts_at({"figures", name_of(preset), std::to_string(s + 1), place_and_subject_of(measured)}, "per_cent",
-                        measured.statement->figure->relative, "against_correct_imm", measured.shown(0),
-                        "against_released_imm", measured.shown(1));
   result.publish(files);
 }
 

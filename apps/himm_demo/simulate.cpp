@@ -1,5 +1,3 @@
-#include <ctime>
-
 #include "himm_demo/experiment/sentences.hpp"
 #include "himm_demo/experiment/tally.hpp"
 #include "report/result.hpp"
@@ -18,44 +16,13 @@ struct SimulateOptions {
   OutputOptions output;
 };
 
-/// CPU time of a step of each filter in ns, on one thread: the median over some of the runs. Not reproducible.
-std::map<std::string, double> nanoseconds_per_step(const Experiment& experiment) {
-  constexpr int most_runs = 15;
-  const auto cpu_time = [] {
-    timespec time{};
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-    return 1e9 * static_cast<double>(time.tv_sec) + static_cast<double>(time.tv_nsec);
-  };
-  std::map<std::string, double> medians;
-  for (const auto& filter : experiment.filters) {
-    std::vector<double> times;
-    for (int number = 0; number < std::min(most_runs, experiment.runs); ++number) {
-      const auto seen = experiment.recording(static_cast<std::uint64_t>(number)).measured;
-      const auto plots = plots_of(filter, experiment.scenario.step_s, seen);
-      AnyTarget target(choice_of(filter, 3));
-      double start = 0.0;
-      int steps = -1;  // the first only warms up
-      for (const AnyPlot& plot : plots) {
-        if (steps == 0) start = cpu_time();
-        target.take(plot, [&](std::size_t, bool is_start) { steps += is_start ? 0 : 1; });
-      }
-      if (filter.smooth) target.smoothed([](const TargetPoint&) {});
-      times.push_back((cpu_time() - start) / steps);
-    }
-    std::ranges::nth_element(times, times.begin() + static_cast<std::ptrdiff_t>(times.size() / 2));
-    medians[filter.name] = times[times.size() / 2];
-  }
-  return medians;
-}
-
-/// Parts of the table of figures: RMSE by phase and axis; NEES; cross-times; a few figures of many filters.
+/// Parts of the table of figures: RMSE by phase and axis; NEES; cross-times.
 struct FigurePart {
-  enum : unsigned { rmse = 1, nees = 2, cross_times = 4, overview = 8 };
+  enum : unsigned { rmse = 1, nees = 2, cross_times = 4 };
 };
 
 /// All figures of all runs of a filter, or of the measurement, as far as it has them.
-std::vector<Field> figures_of(const SimulateOptions& options, const Tally& tally, std::size_t of,
-                              const std::optional<double>& ns_per_step) {
+std::vector<Field> figures_of(const SimulateOptions& options, const Tally& tally, std::size_t of) {
   const FilterSettings* const filter = tally.filter(of);
   std::vector<Field> all = {{of_words("filter", "filter"), tally.name(of)}};
   const auto add = [&](ResultColumn column, const Cell& cell) {
@@ -72,40 +39,34 @@ std::vector<Field> figures_of(const SimulateOptions& options, const Tally& tally
   for (std::size_t p = 0; p < 3; ++p) {
     const std::string phase = phase_names[p];
     const auto rmse = [&](std::size_t axis) { return tally.rmse(of, p, axis).value(); };
-    add_rmse("rmse_" + phase, phase, "RMSE, m:", FigurePart::overview, std::hypot(rmse(0), rmse(1), rmse(2)));
+    add_rmse("rmse_" + phase, "", "", 0U, std::hypot(rmse(0), rmse(1), rmse(2)));
     add_axes("rmse_" + phase, phase, rmse);
   }
   add_axes("peak", "peak", [&](std::size_t axis) { return tally.peak_rmse(of, axis); });
-  const auto add_consistency = [&](Tally::BySample figure, const std::string& key, const std::string& group,
-                                   const std::string& name) {
-    const bool nees = !group.empty();  // whose phases have a table on the terminal
+  const auto add_consistency = [&](Tally::BySample figure, const std::string& key, const std::string& group) {
     for (std::size_t p = 0; p < 3; ++p)
       add({.key = fmt::format("{}_{}", key, phase_names[p]),
            .header = phase_names[p],
            .group = group,
-           .parts = nees ? FigurePart::nees : 0U},
+           .parts = group.empty() ? 0U : FigurePart::nees},  // NIS has no table on the terminal
           tally.mean_of(of, figure, p));
-    add({.header = name, .group = nees ? "NEES:" : "", .parts = FigurePart::overview}, tally.mean_of(of, figure));
   };
-  add_consistency(Tally::nees_position, "nees_position", "position:", "position");
-  add_consistency(Tally::nees_velocity, "nees_position_velocity", "and velocity:", "and velocity");
-  add_consistency(Tally::nis, "nis", "", "NIS");
+  add_consistency(Tally::nees_position, "nees_position", "position:");
+  add_consistency(Tally::nees_velocity, "nees_position_velocity", "and velocity:");
+  add_consistency(Tally::nis, "nis", "");
 
   const std::vector<double> times = tally.cross_times(of);
   const auto mean_time = times.empty() ? std::nullopt : std::optional(mean_interval(times));
   const auto crossed = tally.has_manoeuvre(of) ? std::optional(times.size()) : std::nullopt;
-  const auto curves = tally.cross_time_of_curves(of);
   add({.key = "cross_time_of_runs", .header = "mean of runs", .interval = true, .parts = FigurePart::cross_times},
       mean_time);
-  add({.header = "runs", .group = "cross-time:", .parts = FigurePart::overview}, mean_time ? mean_time->mean : nan);
   add({.key = "runs_crossed", .parts = 0}, crossed);
   add({.header = "runs that crossed", .parts = FigurePart::cross_times},
       crossed ? fmt::format("{} of {}", *crossed, tally.experiment.runs) : "–");
-  add({.key = "cross_time_of_curves", .header = "of the averaged curves", .parts = FigurePart::cross_times}, curves);
-  add({.header = "curves", .group = "cross-time:", .parts = FigurePart::overview}, curves);
+  add({.key = "cross_time_of_curves", .header = "of the averaged curves", .parts = FigurePart::cross_times},
+      tally.cross_time_of_curves(of));
   add({.key = "cross_time_of_paper", .header = "paper", .parts = FigurePart::cross_times},
       filter ? paper_cross_time(options.scenario, options.group, *filter) : std::nullopt);
-  add({.header = "ns/step", .digits = 0, .parts = FigurePart::overview}, ns_per_step ? Cell(*ns_per_step) : Cell());
   return all;
 }
 
@@ -188,7 +149,7 @@ void add_samples(const Tally& tally, Result& result) {
   result.add(weights, {.printed = false, .csv = "weights.csv"});
 }
 
-void report(const SimulateOptions& options, const Tally& tally, const std::map<std::string, double>& ns_per_step) {
+void report(const SimulateOptions& options, const Tally& tally) {
   ResultFiles files(options.output);
   const Experiment& experiment = tally.experiment;
   const auto& phases = experiment.scenario.phases;
@@ -204,47 +165,32 @@ void report(const SimulateOptions& options, const Tally& tally, const std::map<s
                return fmt::format("{} {}–{}", phase_names[p], phases[p].first, phases[p].last);
              }));
 
-  const bool brief = !ns_per_step.empty();
   ResultTable figures;
-  for (std::size_t of = 0; of < tally.size(); ++of) {
-    const auto ns = ns_per_step.find(tally.name(of));
-    figures.row_of(figures_of(options, tally, of, ns == ns_per_step.end() ? std::nullopt : std::optional(ns->second)));
-  }
+  for (std::size_t of = 0; of < tally.size(); ++of) figures.row_of(figures_of(options, tally, of));
   const auto compared = comparisons(options, tally);
-  ResultTable few = figures.part(FigurePart::overview, "filter"),
-              consistency = figures.part(FigurePart::nees, "mean NEES", 1);
-  few.rule();
-  few.row({"if consistent", {}, {}, {}, "3", "6", "3", {}, {}, {}});
+  ResultTable consistency = figures.part(FigurePart::nees, "mean NEES", 1);
   consistency.rule();
   consistency.row({"if consistent", "3", "3", "3", "6", "6", "6"});
   result.add(figures, {.printed = false, .csv = "filters.csv", .summary = {"results"}});
   add_samples(tally, result);
-  result.add(few, {.printed = brief});
-  result.add(figures.part(FigurePart::rmse, "position RMSE, m"),
-             {.printed = !brief, .title = "Position RMSE by phase"});
+  result.add(figures.part(FigurePart::rmse, "position RMSE, m"), {.title = "Position RMSE by phase"});
   for (std::size_t i = 0; i < compared.size(); ++i) {
     result.facts_at({"comparisons", i}, "filter", compared[i].filter, "minus", compared[i].reference);
-    result.add(compared[i].table, {.printed = !brief,
+    result.add(compared[i].table, {.printed = !crowded(experiment),
                                    .summary = {"comparisons", i, "rmse_difference_m"},
                                    .title = crowded(experiment) ? "" : "Difference of RMSE, paired by run, ± 95 %"});
     if (result.page.verdict.size() < 2 && !compared[i].sentence.empty())
       result.page.verdict.push_back(compared[i].sentence);
   }
   result.say(
-      {{brief,
-        "(RMSE of the distance. NEES and NIS: means over all phases. Cross-time: mean of the runs' that crossed, and "
-        "of the averaged curves, in samples. ns/step: CPU time on one thread, median; all else is the same for a "
-        "seed.)"},
-       {!brief && !compared.empty(),
+      {{!crowded(experiment) && !compared.empty(),
         fmt::format("(RMSE differences ± 95 % by paired runs; negative is better. \"Competitive\": within {:.0f} %.)",
                     100.0 * competitive_fraction)}});
-  result.add(consistency, {.printed = !brief, .title = "Mean NEES"});
+  result.add(consistency, {.title = "Mean NEES"});
   result.add(figures.part(FigurePart::cross_times, "cross-time, sample", 1),
-             {.printed = !brief, .title = "Cross-time: when the manoeuvre model overtakes"});
-  result.say({{!brief && experiment.mode_sample_shift != 0,
+             {.title = "Cross-time: when the manoeuvre model overtakes"});
+  result.say({{experiment.mode_sample_shift != 0,
                "(As in the released program, mode weights are counted one sample early.)"}});
-  for (const auto& filter : experiment.filters)
-    if (brief) result.fact({"not_reproducible", "ns_per_step", filter.name}, ns_per_step.at(filter.name));
 
   Report& page = result.page;
   page.verdict.push_back(fmt::format("Preset {}, seed {}; a sample is {} s. The manoeuvre is in samples {} to {}.",
@@ -254,8 +200,7 @@ void report(const SimulateOptions& options, const Tally& tally, const std::map<s
   page.groups = {{measurement_name, true}, {truth_name, true}};
   for (const auto& filter : experiment.filters)
     page.groups.push_back({.name = filter.name, .shown = !crowded(experiment) || page.groups.size() < 4});
-  page.chooser = "Show";
-  if (files.report_wanted()) page.views = views_of(tally);
+  if (files.report_wanted()) page.panels = panels_of(tally);
   page.last.emplace_back(Words{"Settings in force", settings, true});
   result.publish(files);
 }
@@ -272,8 +217,7 @@ void simulate_and_report(const SimulateOptions& options) {
   const Study study{"runs", static_cast<std::size_t>(runs), [&](std::size_t run) { return tally.row(run, run + 1); }};
   const auto add = [&](std::size_t, const Study::Row& row) { tally.add(row); };
   if (!run(study, {.threads = options.threads}, options.output, add)) return;
-  report(options, tally,
-         asks_for_all(settings) ? nanoseconds_per_step(tally.experiment) : std::map<std::string, double>());
+  report(options, tally);
 }
 
 }  // namespace

@@ -135,7 +135,7 @@ class SweepWorld {
   /// Throws InputError for a filter that there is not.
   explicit SweepWorld(const SweepOptions& what) : options(what) {
     const std::vector<std::string> sets = {fmt::format("filters=[{}]", fmt::join(options.filters, ","))};
-    filters = read_filters(Settings::read({}, sets), FilterDefaults::of(Preset::paper_text, group(1, 1)));
+    filters = read_filters(Settings::read({}, sets), defaults_of(Preset::paper_text, group(1, 1)));
     imm = static_cast<std::size_t>(std::ranges::find(filters, "imm", &FilterSettings::name) - filters.begin());
   }
 
@@ -251,7 +251,8 @@ class SweepWorld {
                         .step = std::min(0.5, 0.25 * std::log(all.back() / all.front()))});
     Tuned best{{}, 0, infinity, 0};
     const auto take = [&](std::size_t lift, const SearchOptions& how) {
-      const Fit found = search(free, loss_of(lift), how);
+      const auto loss = loss_of(lift);
+      const Fit found = free.empty() ? Fit{{}, loss({}), 1} : search(free, loss, how);
       best.tried += found.evaluations;
       if (!best.numbers.empty() && found.loss >= best.tuning_score) return;
       best.lift = lift;
@@ -314,7 +315,7 @@ std::string limits(const SweepWorld& world) {
                      stopped, world.all_tuned.size());
 }
 
-/// Parts of the table of all filters in all conditions: with the numbers or the name of the condition, or for one.
+/// Parts of the table of all filters in all conditions: with the numbers or the name of the condition.
 struct ConditionPart {
   enum : unsigned { numbers = 1, name = 2 };
 };
@@ -337,13 +338,11 @@ ResultTable filters_table(const SweepWorld& world) {
                    {{.key = "sigma_w_dwpa", .header = "dwpa", .sized = true, .group = "σ_w, m/s²:"}, tuned.numbers[3]},
                    {of_words("lift", "lift"), world.options.lifts[tuned.lift]},
                    {{.key = "at_the_limit"}, world.at_the_limit(cell) ? 1 : 0},
-                   {{.key = "settings_tried"}, tuned.tried},
                    {{.key = "tuning_score", .header = "tuning", .digits = 3, .group = "score:"}, tuned.tuning_score},
                    {{.key = "score", .header = "judged", .digits = 3, .interval = true, .group = "score:"},
                     tuned.score.interval()},
                    {{.key = "above_imm", .header = "% above imm", .digits = 1, .scale = 100.0, .interval = true},
-                    world.imm < world.filters.size() ? Cell(world.against_imm(c, f)) : Cell()},
-                   {{.key = "is_himm"}, world.himm(c) == f ? 1 : 0}});
+                    world.imm < world.filters.size() ? Cell(world.against_imm(c, f)) : Cell()}});
     table.row_of(fields);
   }
   return table;
@@ -368,12 +367,11 @@ ResultTable above_imm_table(const SweepWorld& world) {
   return table;
 }
 
-/// By how much filters are above the tuned IMM; at(row, column) gives the condition and who is compared.
-template <class At>
-HeatMap above_imm_map(const SweepWorld& world, HeatMap map, const At& at) {
-  auto sizes = each_below(world.conditions.size(), [&, first = world.rivals().front()](std::size_t c) {
-    return std::abs(world.against_imm(c, first.filter[c]).mean);
-  });
+/// By how much rivals, the columns, are above the tuned IMM in conditions, the rows.
+HeatMap above_imm_map(const SweepWorld& world, HeatMap map, const std::vector<std::size_t>& conditions) {
+  const std::vector<Rival> rivals = world.rivals();
+  auto sizes = each_below(world.conditions.size(),
+                          [&](std::size_t c) { return std::abs(world.against_imm(c, rivals.front().filter[c]).mean); });
   std::ranges::sort(sizes);
   map.most = sizes[sizes.size() * 19 / 20];
   map.value_label = "% above the score of the tuned IMM";
@@ -384,8 +382,7 @@ HeatMap above_imm_map(const SweepWorld& world, HeatMap map, const At& at) {
       fmt::format("Negative is better. *: the interval is on one side of 0. Colours are strongest from ± {} % on.",
                   number_text(100.0 * *map.most, 1));
   map.fill([&](std::size_t row, std::size_t column) {
-    const auto& [c, rival] = at(row, column);
-    const std::size_t f = rival.filter[c];
+    const std::size_t c = conditions[row], f = rivals[column].filter[c];
     const auto& [numbers, lift, tuning_score, tried, judged] = world.tuned(c, f);
     const Interval above = world.against_imm(c, f), score = judged.interval();
     return HeatMap::Cell{
@@ -402,13 +399,12 @@ HeatMap above_imm_map(const SweepWorld& world, HeatMap map, const At& at) {
 
 /// Conditions by filters, a map for each scenario.
 std::vector<Panel> maps_of_all(const SweepWorld& world) {
-  const std::vector<Rival> rivals = world.rivals();
   std::vector<Panel> panels;
   for (const int scenario : world.options.scenarios) {
     HeatMap map{.title = fmt::format("Scenario {}", scenario),
                 .row_label = "condition",
                 .column_label = "filter",
-                .columns = each(rivals, &Rival::name)};
+                .columns = each(world.rivals(), &Rival::name)};
     std::vector<std::size_t> own;
     for (std::size_t c = 0; c < world.conditions.size(); ++c) {
       if (world.conditions[c].scenario != scenario) continue;
@@ -416,49 +412,15 @@ std::vector<Panel> maps_of_all(const SweepWorld& world) {
       map.rows.push_back(words.size() > 3 ? words.substr(3) : "as in the paper");
       own.push_back(c);
     }
-    panels.emplace_back(above_imm_map(world, std::move(map), [&](std::size_t row, std::size_t column) {
-      return std::pair(own[row], rivals[column]);
-    }));
+    panels.emplace_back(above_imm_map(world, std::move(map), own));
   }
   return panels;
 }
 
-/// All conditions of a scenario, a view for each filter: strength and length by noise and period.
-std::vector<View> maps_of_each(const SweepWorld& world) {
-  const auto& all = world.options.factors;
-  const auto names = [&](Factor first, Factor second) {
-    std::vector<std::string> crossed;
-    for (const double a : all[first])
-      for (const double b : all[second]) crossed.push_back(fmt::format("×{:g}, ×{:g}", a, b));
-    return crossed;
-  };
-  return each(world.rivals(), [&](const Rival& rival) {
-    View view{rival.name, {}};
-    for (const int scenario : world.options.scenarios)
-      view.panels.emplace_back(
-          above_imm_map(world,
-                        {.title = fmt::format("{}, scenario {}", rival.name, scenario),
-                         .row_label = "strength, length of the manoeuvre",
-                         .column_label = "noise, period",
-                         .rows = names(strength, length),
-                         .columns = names(noise, period)},
-                        [&](std::size_t row, std::size_t column) {
-                          const std::size_t lengths = all[length].size(), periods = all[period].size();
-                          const SweepCondition here{scenario,
-                                                    {all[noise][column / periods], all[period][column % periods],
-                                                     all[strength][row / lengths], all[length][row % lengths]}};
-                          const auto found = std::ranges::find(world.conditions, here);
-                          return std::pair(static_cast<std::size_t>(found - world.conditions.begin()), rival);
-                        }));
-    return view;
-  });
-}
-
 void report(const SweepWorld& world) {
   constexpr std::size_t most_rows = 300;  // of a table in the page
-  const SweepOptions& options = world.options;
-  ResultFiles files(options.output);
-  Result result(options.output);
+  ResultFiles files(world.options.output);
+  Result result(world.options.output);
   const ResultTable filters = filters_table(world);
   const std::string answered = answer(world), stopped = limits(world);
   const bool all_shown = world.all_tuned.size() <= most_rows;
@@ -475,10 +437,6 @@ void report(const SweepWorld& world) {
   if (!answered.empty()) result.fact({"answer"}, answered);
   result.say({{!answered.empty(), answered}, {!stopped.empty(), stopped}});
   result.add(filters.part(ConditionPart::numbers, ""), {.printed = false, .csv = "tuned.csv"});
-  for (std::size_t c = 0; c < world.conditions.size(); ++c)
-    result.add(filters.part(ResultColumn::all_parts ^ (ConditionPart::numbers | ConditionPart::name), "",
-                            c * world.filters.size(), world.filters.size()),
-               {.printed = false, .summary = {"conditions", words_of(world.conditions[c])}});
   result.add(filters.part(ConditionPart::name, "scenario"),
              {.printed = false, .title = all_shown ? "The best settings" : ""});
   Report& page = result.page;
@@ -489,12 +447,7 @@ void report(const SweepWorld& world) {
                          ". The score is the mean over axes and phases of RMSE over that of the measurement.");
   if (!all_shown)
     page.verdict.emplace_back("The best settings of every filter are in tuned.csv, and in each cell of the maps.");
-  if (compares && options.cross) {
-    page.chooser = "Filter";
-    page.views = maps_of_each(world);
-  } else if (compares && world.filters.size() > 1) {
-    page.panels = maps_of_all(world);
-  }
+  if (compares && world.filters.size() > 1) page.panels = maps_of_all(world);
   result.publish(files);
 }
 

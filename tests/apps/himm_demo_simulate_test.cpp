@@ -77,18 +77,14 @@ const auto all_filters = words(
     "himm_own_recentred "
     "himm_released himm_envelope himm_global himm_possibility viterbi static_random static_fuzzy");
 
-TEST_F(HimmDemoSimulate, AllPrintsEveryFilterAsARowOfOneTable) {
-  const auto ending = program::succeeded(simulate(directory.path(), {"--runs", "3", "--set", "filters=all", "--wide"}));
+TEST_F(HimmDemoSimulate, AllPrintsEveryFilterAsARowOfEachTable) {
+  const auto ending = program::succeeded(simulate(directory.path(), {"--runs", "3", "--set", "filters=all"}));
   for (const auto& filter : all_filters) {
-    const auto at = ending.output.find("\n" + filter + " ");
-    ASSERT_NE(at, std::string::npos) << filter << "\n" << ending.output;
-    EXPECT_EQ(ending.output.find("\n" + filter + " ", at + 1), std::string::npos) << filter;
+    EXPECT_TRUE(says(ending.output, {"\n" + filter + " "})) << filter;
   }
   EXPECT_EQ(ending.output.find("nan"), std::string::npos) << ending.output;
   const auto table = contents(directory.path() / "filters.csv");
   EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 2 + static_cast<long>(all_filters.size()));
-  const auto summary = nlohmann::json::parse(contents(directory.path() / "summary.json"));
-  for (const auto& filter : all_filters) EXPECT_GT(summary.at("not_reproducible").at("ns_per_step").at(filter), 0.0);
 }
 
 TEST_F(HimmDemoSimulate, EachRowOfAllIsThatOfTheFilterAlone) {

@@ -1,20 +1,14 @@
 #pragma once
 
-#include <vector>
-
 #include <sigmax/estimation/radar.hpp>
 
+#include "himm_demo/filters/settings.hpp"
 #include "shell/random.hpp"
 
 namespace sigmax::apps {
 
 inline constexpr std::array<const char*, 3> axis_names = {"x", "y", "z"};
 inline constexpr std::array<const char*, 3> phase_names = {"before", "during", "after"};  ///< the manoeuvre
-
-/// Which of two accounts of the experiment is followed, where print and program differ.
-enum class Preset { paper_text, released };
-inline constexpr std::array both_presets = {Preset::paper_text, Preset::released};
-inline const char* name_of(Preset preset) { return preset == Preset::released ? "released" : "paper_text"; }
 
 /// Samples first … last, counted from one.
 struct Phase {

@@ -2,8 +2,6 @@
 
 #include <sstream>
 
-#include "report/report.hpp"
-
 namespace sigmax::apps {
 namespace {
 

@@ -4,8 +4,6 @@
 
 #include <sigmax/estimation/metrics.hpp>
 
-#include "report/report.hpp"
-
 namespace sigmax::apps {
 namespace {
 
@@ -57,8 +55,7 @@ Sample sample_of(const TargetPoint& point, const Vector<6>& truth) {
   return sample;
 }
 
-}  // namespace
-
+/// What the experiment's radar saw, sample by sample, as the filter takes it; the tag is the sample, from 0.
 std::vector<AnyPlot> plots_of(const FilterSettings& filter, double step_s, std::span<const Polar> seen) {
   std::vector<AnyPlot> plots;
   for (const auto& [range, azimuth, elevation] : seen) {
@@ -69,6 +66,8 @@ std::vector<AnyPlot> plots_of(const FilterSettings& filter, double step_s, std::
   }
   return plots;
 }
+
+}  // namespace
 
 Recording Experiment::recording(std::uint64_t number) const {
   RandomStream random(seed, number);
@@ -100,10 +99,17 @@ TracedRun Experiment::traced(std::uint64_t number) const {
   return run;
 }
 
+FilterDefaults defaults_of(Preset preset, const Group& parameters) {
+  FilterDefaults defaults = FilterDefaults::of(preset);
+  for (auto& motion : defaults.filter.motions) motion[MotionParameter::sigma_w] = parameters.sigma_w;
+  defaults.filter.accuracy.radar = {parameters.model.range, parameters.model.azimuth, parameters.model.elevation};
+  return defaults;
+}
+
 Experiment experiment_of(Preset preset, int scenario_number, int group_number, const Settings& settings, int runs,
                          std::uint64_t seed) {
   const Group parameters = group(group_number, scenario_number);
-  auto filters = read_filters(settings, FilterDefaults::of(preset, parameters));
+  auto filters = read_filters(settings, defaults_of(preset, parameters));
   settings.refuse_unknown();
   const int mode_sample_shift = preset == Preset::released ? -1 : 0;
   return {scenario(scenario_number, preset), parameters, std::move(filters), runs, seed, mode_sample_shift};
@@ -254,17 +260,11 @@ double Tally::peak_rmse(std::size_t of, std::size_t axis) const {
   return peak;
 }
 
-double Tally::mean_of(std::size_t of, BySample figure, std::optional<std::size_t> phase) const {
-  double sum = 0.0, samples = 0.0;
-  for (std::size_t p = phase.value_or(0); p <= phase.value_or(2); ++p) {
-    const Phase& one = experiment.scenario.phases[p];
-    const auto count = [&](std::size_t k) { return static_cast<double>(means_[at(of, k) + figure].count()); };
-    const auto total = [&](std::size_t k) { return count(k) > 0.0 ? count(k) * mean_at(of, k, figure) : 0.0; };
-    const double length = one.last - one.first + 1;
-    sum += length * phase_mean(one, total) / phase_mean(one, count);
-    samples += length;
-  }
-  return sum / samples;
+double Tally::mean_of(std::size_t of, BySample figure, std::size_t phase) const {
+  const Phase& one = experiment.scenario.phases[phase];
+  const auto count = [&](std::size_t k) { return static_cast<double>(means_[at(of, k) + figure].count()); };
+  const auto total = [&](std::size_t k) { return count(k) > 0.0 ? count(k) * mean_at(of, k, figure) : 0.0; };
+  return phase_mean(one, total) / phase_mean(one, count);
 }
 
 }  // namespace sigmax::apps

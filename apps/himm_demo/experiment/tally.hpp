@@ -3,13 +3,11 @@
 #include <sigmax/estimation/gaussian.hpp>
 
 #include "himm_demo/experiment/scenario.hpp"
-#include "himm_demo/filters/settings.hpp"
+#include "report/report.hpp"
 #include "study/statistic.hpp"
 #include "study/study.hpp"
 
 namespace sigmax::apps {
-
-struct View;
 
 /// One filter at one sample; NaN where there is no estimate. The measurement has errors alone.
 struct Sample {
@@ -45,12 +43,12 @@ struct Experiment {
   TracedRun traced(std::uint64_t number) const;
 };
 
+/// With the accuracies and σ_w that the filters of a group believe.
+FilterDefaults defaults_of(Preset preset, const Group& parameters);
+
 /// That of a scenario and group, with the filters that the settings name. Throws InputError for what cannot be.
 Experiment experiment_of(Preset preset, int scenario_number, int group_number, const Settings& settings, int runs,
                          std::uint64_t seed);
-
-/// What the experiment's radar saw, sample by sample, as the filter takes it; the tag is the sample, from 0.
-std::vector<AnyPlot> plots_of(const FilterSettings& filter, double step_s, std::span<const Polar> seen);
 
 /// What runs of an experiment add up to: figures by batch of runs, so that their statistics are paired, and means by
 /// sample. All is told of the measurement, number 0, and of the filters from number 1 on; samples and phases are
@@ -115,10 +113,10 @@ class Tally {
   std::vector<double> weights_at(std::size_t of, std::size_t sample) const;
 
   /// Over samples: where the averaged weights cross, the greatest RMSE along an axis, and the mean NEES or NIS of a
-  /// phase or of all: 3 if consistent, 6 with the velocity.
+  /// phase: 3 if consistent, 6 with the velocity.
   std::optional<double> cross_time_of_curves(std::size_t of) const;
   double peak_rmse(std::size_t of, std::size_t axis) const;
-  double mean_of(std::size_t of, BySample figure, std::optional<std::size_t> phase = std::nullopt) const;
+  double mean_of(std::size_t of, BySample figure, std::size_t phase) const;
 
   const Experiment experiment;
 
@@ -137,8 +135,7 @@ class Tally {
 /// So many filters that not all can be told apart at once.
 inline bool crowded(const Experiment& experiment) { return experiment.filters.size() > 6; }
 
-/// A tally by sample as the views of a page: curves over the samples of all runs (Figs. 2–11), and of the first runs
-/// each, up to 8, fewer if many filters would make the page great.
-std::vector<View> views_of(const Tally& tally);
+/// A tally by sample on a page: curves over the samples of all runs (Figs. 2–11), and the track of the first.
+std::vector<Panel> panels_of(const Tally& tally);
 
 }  // namespace sigmax::apps

@@ -1,7 +1,6 @@
 #include <sigmax/estimation/chi_square.hpp>
 
 #include "himm_demo/experiment/sentences.hpp"
-#include "report/report.hpp"
 
 namespace sigmax::apps {
 namespace {
@@ -56,17 +55,9 @@ LineChart rmse_chart(const Tally& tally, std::size_t axis) {
   return made;
 }
 
-LineChart error_chart(const Tally& tally, const TracedRun& run, std::size_t axis) {
-  LineChart made =
-      chart(tally, fmt::format("Error in {}", axis_names[axis]), "error, m", 0,
-            [&](std::size_t of, std::size_t k) { return run.traces[of][k].error(static_cast<Eigen::Index>(axis)); });
-  made.curves[0].dots = true;
-  return made;
-}
-
 /// A curve of each filter and model; the dash tells the model.
-LineChart weights_chart(const Tally& tally, const std::string& mean) {
-  LineChart made = chart(tally, "Mode weights", mean + "probability (IMM) or possibility (HIMM)", tally.size(),
+LineChart weights_chart(const Tally& tally) {
+  LineChart made = chart(tally, "Mode weights", "mean probability (IMM) or possibility (HIMM)", tally.size(),
                          [](std::size_t, std::size_t) { return nan; });
   made.greatest_y = 1.05;
   const std::vector<std::string> models = model_names(tally.experiment.filters);
@@ -96,9 +87,10 @@ LineChart consistency_chart(const Tally& tally, const char* title, const std::st
   return made;
 }
 
-/// The track of a run; with an error ellipse of each filter at a few samples.
-Plan plan(const Tally& tally, const TracedRun& run, std::size_t number) {
-  Plan plan{.title = fmt::format("Track of run {}", number), .x_label = "x, m", .y_label = "y, m"};
+/// The track of the first run; with an error ellipse of each filter at a few samples.
+Plan plan(const Tally& tally) {
+  const TracedRun run = tally.experiment.traced(0);
+  Plan plan{.title = "Track of run 1", .x_label = "x, m", .y_label = "y, m"};
   const auto seen_by = [&](std::size_t of, std::size_t k) -> Vector<3> {
     return run.truth[k].head<3>() + run.traces[of][k].error;
   };
@@ -124,20 +116,6 @@ Plan plan(const Tally& tally, const TracedRun& run, std::size_t number) {
   plan.note = "It opens at the beginning of the manoeuvre.";
   if (!plan.ellipses.empty()) plan.note += " Ellipses: 95 % as each filter states it, every 5 samples.";
   return plan;
-}
-
-/// All runs and the track of the first, or one run.
-View view_of(const Tally& tally, const TracedRun& run, std::size_t number, bool one) {
-  const int runs = tally.experiment.runs;
-  View view{one ? fmt::format("run {}", number) : runs == 1 ? "the only run" : fmt::format("all {} runs", runs), {}};
-  for (std::size_t axis = 0; axis < 3; ++axis)
-    view.panels.emplace_back(one ? error_chart(tally, run, axis) : rmse_chart(tally, axis));
-  const std::string mean = one ? "" : "mean ";
-  view.panels.emplace_back(weights_chart(tally, mean));
-  view.panels.emplace_back(consistency_chart(tally, "NEES of the position", mean + "NEES", Tally::nees_position));
-  view.panels.emplace_back(consistency_chart(tally, "NIS", mean + "NIS", Tally::nis));
-  view.panels.emplace_back(plan(tally, run, number));
-  return view;
 }
 
 /// The figures of all sentences that are of this scenario and group, and where the sentences want them: those of the
@@ -197,23 +175,14 @@ View view_of(const std::vector<Judged>& sentences, const Condition& condition, c
   return view;
 }
 
-std::vector<View> views_of(const Tally& tally) {
-  constexpr std::size_t most_numbers = 42000;                   // some 350 kB
-  const std::size_t per_sample = 12 + (tally.size() - 1) * 12;  // coordinates, errors, weights, NEES and NIS
-  const auto fit = static_cast<int>(most_numbers / (per_sample * tally.experiment.samples()));
-  const int runs = crowded(tally.experiment) ? 1 : std::min(std::clamp(fit, 1, 8), tally.experiment.runs);
-  Experiment one = tally.experiment;
-  one.runs = 1;
-  std::vector<View> views;
-  for (std::uint64_t number = 0; number < static_cast<std::uint64_t>(runs); ++number) {
-    const TracedRun run = one.traced(number);
-    if (number == 0) views.push_back(view_of(tally, run, 1, false));
-    if (crowded(one)) continue;
-    Tally own(one, true);
-    own.add(own.row(number, number + 1));
-    views.push_back(view_of(own, run, number + 1, true));
-  }
-  return views;
+std::vector<Panel> panels_of(const Tally& tally) {
+  std::vector<Panel> panels;
+  for (std::size_t axis = 0; axis < 3; ++axis) panels.emplace_back(rmse_chart(tally, axis));
+  panels.emplace_back(weights_chart(tally));
+  panels.emplace_back(consistency_chart(tally, "NEES of the position", "mean NEES", Tally::nees_position));
+  panels.emplace_back(consistency_chart(tally, "NIS", "mean NIS", Tally::nis));
+  panels.emplace_back(plan(tally));
+  return panels;
 }
 
 }  // namespace sigmax::apps

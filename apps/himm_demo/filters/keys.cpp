@@ -2,7 +2,6 @@
 
 #include <sstream>
 
-#include "himm_demo/experiment/scenario.hpp"
 #include "shell/text.hpp"
 
 namespace sigmax::apps {

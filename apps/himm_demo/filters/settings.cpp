@@ -1,6 +1,5 @@
 #include "himm_demo/filters/settings.hpp"
 
-#include "himm_demo/experiment/scenario.hpp"
 #include "shell/text.hpp"
 
 namespace sigmax::apps {
@@ -209,21 +208,10 @@ FilterDefaults FilterDefaults::of(Preset preset) {
   return defaults;
 }
 
-FilterDefaults FilterDefaults::of(Preset preset, const Group& parameters) {
-  FilterDefaults defaults = of(preset);
-  for (auto& motion : defaults.filter.motions) motion[MotionParameter::sigma_w] = parameters.sigma_w;
-  defaults.filter.accuracy.radar = {parameters.model.range, parameters.model.azimuth, parameters.model.elevation};
-  return defaults;
-}
-
-bool asks_for_all(const Settings& settings) {
-  return settings.get("filters", std::vector<std::string>{}) == std::vector<std::string>{"all"};
-}
-
 std::vector<FilterSettings> read_filters(const Settings& settings, const FilterDefaults& defaults) {
   auto names = settings.get("filters", defaults.names);
   if (names.empty()) throw settings.error("filters", "the name of at least one filter");
-  if (asks_for_all(settings)) {
+  if (names == std::vector<std::string>{"all"}) {
     names.clear();
     for (const auto& known : known_filters)
       if (!known.tuned) names.emplace_back(known.name);

@@ -10,8 +10,10 @@
 
 namespace sigmax::apps {
 
-enum class Preset;
-struct Group;
+/// Which of two accounts of the paper's experiment is followed, where print and program differ.
+enum class Preset { paper_text, released };
+inline constexpr std::array both_presets = {Preset::paper_text, Preset::released};
+inline const char* name_of(Preset preset) { return preset == Preset::released ? "released" : "paper_text"; }
 
 /// How a filter takes a radar's measurements: converted to positions, or in the radar's own space; there only the start
 /// is from positions, by the unbiased conversion.
@@ -113,17 +115,10 @@ struct FilterDefaults {
   std::vector<std::string> names = {"imm", "himm"};
 
   static FilterDefaults of(Preset preset);
-
-  /// With the accuracies and σ_w that the filters of a group believe.
-  static FilterDefaults of(Preset preset, const Group& parameters);
 };
 
-/// Whether the settings ask for every filter that has a name of its own and no settings that were tuned for it,
-/// `filters = "all"`.
-bool asks_for_all(const Settings& settings);
-
-/// The filters that the settings name, in order; "all" stands for those. Throws
-/// InputError, with the key, for what cannot be.
+/// The filters that the settings name, in order; "all" stands for every one that has a name of its own and no settings
+/// that were tuned for it. Throws InputError, with the key, for what cannot be.
 std::vector<FilterSettings> read_filters(const Settings& settings, const FilterDefaults& defaults);
 
 /// Distinct names of models: a second dwna is dwna_2.
