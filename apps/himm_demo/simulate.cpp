@@ -70,39 +70,21 @@ std::vector<Field> figures_of(const SimulateOptions& options, const Tally& tally
   return all;
 }
 
-/// One filter against another: a row for each phase with the differences of RMSE by axis, and what the paper claims.
+/// One filter against another: a row for each phase with the differences of RMSE by axis.
 struct Comparison {
   std::string filter, reference;
   ResultTable table{};
-  std::string sentence{};  ///< what became of the claims, if there are any
 };
 
-Comparison compared(const SimulateOptions& options, const Tally& tally, std::size_t of, std::size_t to) {
+Comparison compared(const Tally& tally, std::size_t of, std::size_t to) {
   Comparison comparison{tally.name(of), tally.name(to)};
   for (std::size_t p = 0; p < 3; ++p) {
     std::vector<Field> fields = {
         {of_words("phase", fmt::format("{} − {}, m", tally.name(of), tally.name(to))), phase_names[p]}};
-    std::array<Interval, 3> difference;
-    std::array<double, 3> reference{};
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const Statistic rmse = tally.rmse(to, p, axis);
-      difference[axis] = (tally.rmse(of, p, axis) - rmse).interval();
-      reference[axis] = rmse.value();
-      const char* const name = axis_names[axis];
+    for (std::size_t axis = 0; axis < 3; ++axis)
       fields.push_back(
-          {{.key = name, .header = name, .sign = true, .sized = true, .interval = true}, difference[axis]});
-    }
-    if (judged(*tally.filter(of), *tally.filter(to))) {
-      const Region claim = claim_of(options.scenario, options.group, p);
-      const std::string holds = verdict(claim, difference, reference);
-      const bool correct = tally.filter(to)->imm_mixing == MixingWeights::correct;
-      fields.push_back({of_words("", "the paper says"), word_of(claim)});
-      fields.push_back({of_words("", fmt::format("against the {} IMM that", correct ? "correct" : "released")), holds});
-      comparison.sentence +=
-          fmt::format("{} {} the manoeuvre the paper says {}, which {}{}",
-                      p ? ";" : fmt::format("{} against {}:", comparison.filter, comparison.reference), phase_names[p],
-                      word_of(claim), holds, p == 2 ? "." : "");
-    }
+          {{.key = axis_names[axis], .header = axis_names[axis], .sign = true, .sized = true, .interval = true},
+           (tally.rmse(of, p, axis) - tally.rmse(to, p, axis)).interval()});
     comparison.table.row_of(fields);
   }
   return comparison;
@@ -110,17 +92,17 @@ Comparison compared(const SimulateOptions& options, const Tally& tally, std::siz
 
 /// Every fuzzy filter against every random one that takes the same and makes the same of it; without such a pair, every
 /// filter against the first.
-std::vector<Comparison> comparisons(const SimulateOptions& options, const Tally& tally) {
+std::vector<Comparison> comparisons(const Tally& tally) {
   std::vector<Comparison> all;
   for (std::size_t of = 1; of < tally.size(); ++of)
     for (std::size_t to = 1; to < tally.size(); ++to) {
       const FilterSettings &a = *tally.filter(of), &b = *tally.filter(to);
       if (a.fuzzy && !b.fuzzy && a.scheme == b.scheme && a.smooth == b.smooth &&
           a.radar_measurement == b.radar_measurement && a.sojourn_s == b.sojourn_s)
-        all.push_back(compared(options, tally, of, to));
+        all.push_back(compared(tally, of, to));
     }
   const bool none = all.empty();
-  for (std::size_t of = 2; of < tally.size() && none; ++of) all.push_back(compared(options, tally, of, 1));
+  for (std::size_t of = 2; of < tally.size() && none; ++of) all.push_back(compared(tally, of, 1));
   return all;
 }
 
@@ -167,7 +149,7 @@ void report(const SimulateOptions& options, const Tally& tally) {
 
   ResultTable figures;
   for (std::size_t of = 0; of < tally.size(); ++of) figures.row_of(figures_of(options, tally, of));
-  const auto compared = comparisons(options, tally);
+  const auto compared = comparisons(tally);
   ResultTable consistency = figures.part(FigurePart::nees, "mean NEES", 1);
   consistency.rule();
   consistency.row({"if consistent", "3", "3", "3", "6", "6", "6"});
@@ -179,13 +161,9 @@ void report(const SimulateOptions& options, const Tally& tally) {
     result.add(compared[i].table, {.printed = !crowded(experiment),
                                    .summary = {"comparisons", i, "rmse_difference_m"},
                                    .title = crowded(experiment) ? "" : "Difference of RMSE, paired by run, ± 95 %"});
-    if (result.page.verdict.size() < 2 && !compared[i].sentence.empty())
-      result.page.verdict.push_back(compared[i].sentence);
   }
   result.say(
-      {{!crowded(experiment) && !compared.empty(),
-        fmt::format("(RMSE differences ± 95 % by paired runs; negative is better. \"Competitive\": within {:.0f} %.)",
-                    100.0 * competitive_fraction)}});
+      {{!crowded(experiment) && !compared.empty(), "(RMSE differences ± 95 % by paired runs; negative is better.)"}});
   result.add(consistency, {.title = "Mean NEES"});
   result.add(figures.part(FigurePart::cross_times, "cross-time, sample", 1),
              {.title = "Cross-time: when the manoeuvre model overtakes"});

@@ -57,9 +57,6 @@ bool in_the_paper(const FilterSettings& filter) {
          filter.radar_measurement == RadarForm::standard;
 }
 
-/// Whether both ends are closed.
-bool bounded(const Region& region) { return std::isfinite(region.above) && std::isfinite(region.below); }
-
 Finding finding_of(const Interval& interval, const Region& region) {
   if (interval.lower() > region.above && interval.upper() < region.below) return Finding::inside;
   if (interval.upper() < region.above || interval.lower() > region.below) return Finding::outside;
@@ -195,39 +192,6 @@ const std::vector<Sentence>& sentences() {
     return result;
   }();
   return all;
-}
-
-Region claim_of(int scenario, int group, std::size_t phase) {
-  for (const auto& sentence : sentences())
-    for (const auto& statement : sentence.statements) {
-      const auto& phases = statement.phases;
-      if (statement.figure->by_axis && statement.of == "himm" && statement.against == "imm" &&
-          statement.scenario == scenario && statement.group == group &&
-          std::ranges::find(phases, phase) != phases.end())
-        return statement.region;
-    }
-  throw std::logic_error("the paper says nothing of this phase");
-}
-
-std::string_view word_of(const Region& claim) {
-  return bounded(claim) ? "competitive" : std::isfinite(claim.below) ? "better" : "worse";
-}
-
-std::string verdict(const Region& claim, const std::array<Interval, 3>& difference,
-                    const std::array<double, 3>& reference) {
-  int axes_that_hold = 0;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const Region region{claim.above * reference[axis], claim.below * reference[axis]};
-    const Interval found = bounded(claim) ? Interval{difference[axis].mean, 0.0} : difference[axis];
-    if (finding_of(found, region) == Finding::inside) ++axes_that_hold;
-  }
-  return axes_that_hold == 3   ? "holds"
-         : axes_that_hold == 0 ? "does NOT hold"
-                               : fmt::format("holds on {} of 3 axes", axes_that_hold);
-}
-
-bool judged(const FilterSettings& filter, const FilterSettings& reference) {
-  return filter.fuzzy && !reference.fuzzy && in_the_paper(filter) && in_the_paper(reference);
 }
 
 std::optional<double> paper_cross_time(int scenario, int group, const FilterSettings& filter) {

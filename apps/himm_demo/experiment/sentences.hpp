@@ -102,23 +102,8 @@ std::vector<Judged> judge(const std::vector<Condition>& conditions, Preset prese
 /// What decides in a condition, and the RMSE of the measurement and the filters.
 View view_of(const std::vector<Judged>& sentences, const Condition& condition, const std::vector<std::string>& names);
 
-/// Differences of less than a tenth of the reference are called competitive here.
-inline constexpr double competitive_fraction = 0.1;
-
 /// What sections VI.D and VI.E say that can be checked, in the order of the paper.
 const std::vector<Sentence>& sentences();
-
-/// Where they have the relative difference of RMSE, HIMM against IMM, in a phase of a scenario and group, all counted
-/// from 1 but the phase; and the word for it: "better", "worse" or "competitive".
-Region claim_of(int scenario, int group, std::size_t phase);
-std::string_view word_of(const Region& claim);
-
-/// Whether the differences by axis are there, in m; the RMSE of the reference tells what is competitive, of the means.
-std::string verdict(const Region& claim, const std::array<Interval, 3>& difference,
-                    const std::array<double, 3>& reference);
-
-/// Whether the paper's claims are about these two: HIMM against IMM.
-bool judged(const FilterSettings& filter, const FilterSettings& reference);
 
 /// The cross-time that the paper prints for such a filter, if it has it.
 std::optional<double> paper_cross_time(int scenario, int group, const FilterSettings& filter);
