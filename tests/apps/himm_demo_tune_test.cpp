@@ -339,7 +339,8 @@ TEST(HimmDemoTune, BearingsAreJudgedFromAGivenStartAndRefusedWithoutOne) {
   std::mt19937_64 generator(7);
   std::normal_distribution<double> noise(0.0, 0.1);
   const auto row = [&](int k) {
-    return exact(k) + "," + exact(std::atan2(5000.0 - 20.0 * k, 1000.0 + 50.0 * k) / support::degree + noise(generator));
+    return exact(k) + "," +
+           exact(std::atan2(5000.0 - 20.0 * k, 1000.0 + 50.0 * k) / support::degree + noise(generator));
   };
   const TemporaryDirectory directory;
   const std::string file = directory.write("bearings.csv", apps::recording("time_s,azimuth_deg", row, 60));
