@@ -11,8 +11,8 @@
 #include <sigmax/estimation/start.hpp>
 #include <sigmax/hybrid/history_filter.hpp>
 #include <sigmax/hybrid/interacting_multiple_model.hpp>
-#include <sigmax/hybrid/known_model.hpp>
 #include <sigmax/hybrid/mode_transition.hpp>
+#include <sigmax/hybrid/motion_choice.hpp>
 #include <sigmax/hybrid/second_order_multiple_model.hpp>
 #include <sigmax/hybrid/target_life.hpp>
 

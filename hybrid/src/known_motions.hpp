@@ -8,7 +8,7 @@
 #include <sigmax/estimation/cubature.hpp>
 #include <sigmax/estimation/extended.hpp>
 #include <sigmax/estimation/unscented.hpp>
-#include <sigmax/hybrid/known_model.hpp>
+#include <sigmax/hybrid/motion_choice.hpp>
 
 /// What a row of the table of motions is, in motion_choice.cpp.
 namespace sigmax::detail {

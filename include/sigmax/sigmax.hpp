@@ -69,7 +69,6 @@
 #include <sigmax/hybrid/jump_markov_system.hpp>
 #include <sigmax/hybrid/kinematic_plan.hpp>
 #include <sigmax/hybrid/kinematic_step.hpp>
-#include <sigmax/hybrid/known_model.hpp>
 #include <sigmax/hybrid/lift.hpp>
 #include <sigmax/hybrid/mixture.hpp>
 #include <sigmax/hybrid/mode_transition.hpp>

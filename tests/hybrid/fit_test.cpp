@@ -5,7 +5,7 @@ namespace fit_test {
 TEST(Fit, FindsTheLeastLossInEveryScale) {
   const std::vector<FitParameter> parameters = {{.name = "any", .start = -2.0, .scale = Scale::linear},
                                                 {.name = "positive", .start = 100.0},
-                                                {.name = "probability", .start = 0.5, .scale = Scale::logistic}};
+                                                {.name = "share", .start = 0.5, .least = 0.01, .most = 0.99}};
   const auto loss = [](const std::vector<double>& x) {
     EXPECT_GT(x[1], 0.0);
     EXPECT_TRUE(x[2] > 0.0 && x[2] < 1.0);
@@ -36,7 +36,7 @@ TEST(Fit, IsNeverWorseThanItsStartAndPassesOverWhatFails) {
 TEST(Fit, RefusesAParameterThatCannotStart) {
   const auto loss = [](const std::vector<double>&) { return 0.0; };
   EXPECT_INVALID(("'sigma_w'", "start at 0"), fit({{.name = "sigma_w", .start = 0.0}}, loss, by_compass));
-  EXPECT_INVALID(("'p'", "1.5"), fit({{.name = "p", .start = 1.5, .scale = Scale::logistic}}, loss, by_compass));
+  EXPECT_INVALID(("'p'", "-1.5"), fit({{.name = "p", .start = -1.5}}, loss, by_compass));
   EXPECT_INVALID(("'x'", "bounds"), fit({{.name = "x", .least = 2.0, .most = 1.0}}, loss, by_compass));
 }
 

@@ -12,7 +12,7 @@
 
 #include <sigmax/estimation/dense.hpp>
 #include <sigmax/hybrid/interacting_multiple_model.hpp>
-#include <sigmax/hybrid/known_model.hpp>
+#include <sigmax/hybrid/motion_choice.hpp>
 
 namespace sigmax::support {
 

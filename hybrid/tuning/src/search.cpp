@@ -9,8 +9,6 @@ namespace {
 using Point = std::vector<double>;
 using Function = std::function<double(const Point&)>;
 
-constexpr double least_gain = 1e-4;
-
 /// To 2 % of a logarithm, or until the function was asked `most` times. It draws no random numbers.
 void descend(Function function, const FitSearch& space, const Point& start, std::size_t most) {
   const auto n = static_cast<unsigned>(start.size());
@@ -41,15 +39,6 @@ Fit search(const std::vector<FitParameter>& parameters, const Function& loss, co
     std::vector<std::pair<double, Point>> asked;
     const Function remembered = [&](const Point& at) { return asked.emplace_back(function(at), at).first; };
     remembered(space.start);
-    for (const Point& values : options.also) {
-      if (values.size() != n)
-        throw std::invalid_argument("a point of " + std::to_string(values.size()) + " numbers for a search of " +
-                                    std::to_string(n));
-      Point at(n);
-      for (std::size_t i = 0; i < n; ++i)
-        at[i] = std::clamp(parameters[i].scaled(values[i]), space.lower[i], space.upper[i]);
-      remembered(at);
-    }
     boost::random::sobol sequence(n);
     sequence.discard(options.seed * samples * n);
     for (std::size_t k = 0; k < samples; ++k) {
@@ -60,15 +49,15 @@ Fit search(const std::vector<FitParameter>& parameters, const Function& loss, co
     }
     const auto best_first = [&] { std::ranges::stable_sort(asked, {}, [](const auto& one) { return one.first; }); };
     best_first();
-    std::vector<Point> starts;
-    for (std::size_t s = 0; s < std::min(options.starts, asked.size()); ++s) starts.push_back(asked[s].second);
-    for (const Point& start : starts) descend(remembered, space, start, options.local * (n + 1));
+    auto starts = asked;
+    starts.resize(std::min(options.starts, asked.size()));
+    for (const auto& start : starts) descend(remembered, space, start.second, options.local * (n + 1));
+    best_first();
     for (std::size_t round = 0; round < options.rounds; ++round) {  // from there with new models of it
-      best_first();
       const auto [before, start] = asked.front();
       descend(remembered, space, start, options.local * (n + 1));
       best_first();
-      if (!(before - asked.front().first > least_gain)) break;
+      if (!(before - asked.front().first > 1e-4)) break;
     }
   });
 }

@@ -74,7 +74,6 @@ TrackScale::TrackScale(const Tracks& tracks) {
   step_s = quantile(steps, 0.5);
   long_step_s = quantile(steps, 0.9);
   uneven = long_step_s >= 2.0 * quantile(steps, 0.1);
-  longest_step_s = *std::ranges::max_element(steps);
 }
 
 double TrackScale::change(const MeasuredQuantity& quantity) const {
@@ -91,10 +90,9 @@ double TrackScale::change_m() const {
 
 double TrackScale::log_stray(const AnyPlot& plot) const {
   double sum = 0.0;
-  for (std::size_t i = 0; i < static_cast<std::size_t>(plot.size); ++i) {
-    // A quantity that never changes has no width, and no row is off.
-    if (const double own = change(quantity_of(plot, i)); own > 0.0) sum -= std::log(widths * own);
-  }
+  for (std::size_t i = 0; i < static_cast<std::size_t>(plot.size); ++i)
+    if (const double own = change(quantity_of(plot, i)); own > 0.0)  // else no row is off
+      sum -= std::log(widths * own);
   return sum;
 }
 

@@ -11,9 +11,9 @@
 
 namespace sigmax {
 
-/// In what form a search sees a number: as it is, a positive one as its logarithm, one between 0 and 1 as its logit.
-/// There a step means the same wherever it is taken, and every number is possible.
-enum class Scale { linear, logarithmic, logistic };
+/// In what form a search sees a number: as it is, or a positive one as its logarithm. There a step means the same
+/// wherever it is taken.
+enum class Scale { linear, logarithmic };
 
 /// A number that is to be fitted.
 struct FitParameter {
@@ -28,14 +28,8 @@ struct FitParameter {
   double unit = 1.0;  ///< of a linear one, scaled
   double step = 0.5;  ///< what a search tries first, scaled
 
-  double scaled(double value) const {
-    if (scale == Scale::logistic) return std::log(value) - std::log1p(-value);
-    return scale == Scale::logarithmic ? std::log(value) : value / unit;
-  }
-  double value(double scaled) const {
-    if (scale == Scale::logistic) return 1.0 / (1.0 + std::exp(-scaled));
-    return scale == Scale::logarithmic ? std::exp(scaled) : scaled * unit;
-  }
+  double scaled(double value) const { return scale == Scale::logarithmic ? std::log(value) : value / unit; }
+  double value(double scaled) const { return scale == Scale::logarithmic ? std::exp(scaled) : scaled * unit; }
 };
 
 /// What is asked of a search, all in scaled numbers.

@@ -6,6 +6,8 @@
 #include <string>
 #include <string_view>
 
+#include <sigmax/estimation/any_model.hpp>
+
 namespace sigmax {
 
 /// The parameters that motions have, each in the unit that its key names.
@@ -56,5 +58,9 @@ struct MotionChoice {
   bool linear() const { return known().linear; }
   bool manoeuvres() const { return known().manoeuvres; }
 };
+
+/// The model of a motion that is chosen by name, along 1, 2 or 3 axes, in a member of the Kalman family. Throws
+/// std::invalid_argument for a name that is not known, and for a motion that does not go along so few axes.
+AnyModel known_model(const MotionChoice& choice, int axes, MemberType member = MemberType::ekf);
 
 }  // namespace sigmax

@@ -14,7 +14,6 @@ struct SearchOptions {
   std::size_t local = 25;    ///< evaluations of a local search, for each number and one more
   std::size_t rounds = 1;    ///< further local searches about the best of all, while they gain
   std::uint64_t seed = 1;    ///< which part of the sequence
-  std::vector<std::vector<double>> also{};  ///< further points to begin with: values of the parameters
 };
 
 /// Finds numbers with a small loss by NLopt: the best points of a Sobol sequence lead to local searches by BOBYQA
@@ -24,7 +23,7 @@ struct SearchOptions {
 ///     const Fit best = search({{.name = "sigma_w", .start = 3.0, .least = 0.01, .most = 100.0}},
 ///                             [&](const std::vector<double>& x) { return rmse(x[0]); });
 ///
-/// Throws std::invalid_argument as fit_search, and for a further point of another size.
+/// Throws std::invalid_argument as fit_search.
 Fit search(const std::vector<FitParameter>& parameters, const std::function<double(const std::vector<double>&)>& loss,
            const SearchOptions& options = {});
 

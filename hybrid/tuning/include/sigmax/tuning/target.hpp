@@ -27,10 +27,9 @@ class TrackScale {
  public:
   explicit TrackScale(const Tracks& tracks);
 
-  double step_s = 0.0;          ///< the median time between detections
-  double long_step_s = 1.0;     ///< that nine in ten do not exceed
-  double longest_step_s = 0.0;  ///< of all
-  bool uneven = false;          ///< whether one step in ten is twice as long as another one in ten
+  double step_s = 0.0;       ///< the median time between detections
+  double long_step_s = 1.0;  ///< that nine in ten do not exceed
+  bool uneven = false;       ///< whether one step in ten is twice as long as another one in ten
 
   /// What nine in ten changes of a quantity from one detection to the next stay below, those that are none left out; 0
   /// if it never changes.
