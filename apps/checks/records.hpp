@@ -7,7 +7,7 @@
 #include <sigmax/core/mean_interval.hpp>
 
 #include "checks/checks.hpp"
-#include "records/plots.hpp"
+#include "records/recording.hpp"
 
 namespace sigmax::apps::checks {
 

@@ -1,4 +1,4 @@
-#include "records/plots.hpp"
+#include "records/recording.hpp"
 
 #include "shell/random.hpp"
 #include "shell/text.hpp"

@@ -1,4 +1,4 @@
-#include "study/statistic.hpp"
+#include "study/study.hpp"
 #include "support/test.hpp"
 
 namespace statistic_test {

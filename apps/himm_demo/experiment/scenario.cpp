@@ -2,7 +2,7 @@
 
 #include <cassert>
 
-#include "records/plots.hpp"
+#include "records/recording.hpp"
 
 namespace sigmax::apps {
 

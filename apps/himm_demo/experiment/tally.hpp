@@ -4,7 +4,6 @@
 
 #include "himm_demo/experiment/scenario.hpp"
 #include "report/report.hpp"
-#include "study/statistic.hpp"
 #include "study/study.hpp"
 
 namespace sigmax::apps {

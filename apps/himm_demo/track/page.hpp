@@ -3,7 +3,7 @@
 #include <deque>
 
 #include "himm_demo/filters/settings.hpp"
-#include "records/plots.hpp"
+#include "records/recording.hpp"
 #include "report/result.hpp"
 #include "report/thinned.hpp"
 

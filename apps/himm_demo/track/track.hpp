@@ -8,7 +8,7 @@
 #include <sigmax/hybrid/any_target.hpp>
 
 #include "himm_demo/filters/settings.hpp"
-#include "records/plots.hpp"
+#include "records/recording.hpp"
 #include "report/result.hpp"
 
 namespace sigmax::apps {

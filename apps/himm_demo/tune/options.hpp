@@ -1,7 +1,7 @@
 #pragma once
 
 #include "himm_demo/filters/settings.hpp"
-#include "records/plots.hpp"
+#include "records/recording.hpp"
 #include "report/result.hpp"
 
 namespace sigmax::apps {

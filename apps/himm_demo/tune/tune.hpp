@@ -6,7 +6,7 @@
 
 #include "himm_demo/filters/settings.hpp"
 #include "himm_demo/tune/options.hpp"
-#include "records/plots.hpp"
+#include "records/recording.hpp"
 #include "shell/progress.hpp"
 
 namespace sigmax::apps {
