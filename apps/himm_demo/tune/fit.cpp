@@ -144,8 +144,7 @@ RowLosses judged(const TuneData& data, FilterSettings settings, Objective object
   return losses(data, settings, objective);
 }
 
-/// How far half of the rows that are withheld, each fourth, are from where the filter expects them, by fold; no nearer
-/// than columns are rounded, as rows of what stands still are.
+/// How far half of the rows that are withheld, each fourth, are from where the filter expects them, by fold.
 struct Withheld {
   double median_m = 0.0, rows = 0.0;
 };
@@ -164,13 +163,8 @@ std::vector<Withheld> withheld(const TuneData& data, const FilterSettings& setti
     };
     losses(data, settings, Objective::prequential, look, first);
   }
-  double rounding = 0.0;
-  for (const auto& [name, sensor] : data.sensors)
-    if (const double own = sensor.rounding_of(AnyPlot::Sensor::components, 0, data.axes - 1); std::isfinite(own))
-      rounding = std::max(rounding, own);
   std::vector<Withheld> all;
-  for (auto& own : off)
-    all.push_back({own.empty() ? 0.0 : std::hypot(median(own), rounding), static_cast<double>(own.size())});
+  for (auto& own : off) all.push_back({own.empty() ? 0.0 : median(own), static_cast<double>(own.size())});
   return all;
 }
 
