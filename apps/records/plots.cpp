@@ -8,7 +8,7 @@ namespace sigmax::apps {
 std::optional<Position> position_of(const AnyPlot& plot, int axes) {
   if (axes_seen(plot, axes) == 0) return std::nullopt;
   const bool is_seen = plot.sensor == AnyPlot::Sensor::polar || plot.sensor == AnyPlot::Sensor::doppler;
-  const Vector<3> from = to_cartesian({plot.z[0], plot.z[1], axes_seen(plot, axes) == 3 ? plot.z[2] : 0.0});
+  const sigmax::Vector<3> from = to_cartesian({plot.z[0], plot.z[1], axes_seen(plot, axes) == 3 ? plot.z[2] : 0.0});
   Position at = plot.origin;
   for (int i = 0; i < axes; ++i)
     at[static_cast<std::size_t>(i)] =
@@ -39,7 +39,7 @@ void see_by_radar(Row& row, const std::optional<Position>& position, int axes, c
   }
   const auto& sigma = *radar.sigma;
   const Position at = radar.place();
-  const Polar seen = measured(to_polar(Vector<3>(position->data()) - Vector<3>(at.data())),
+  const Polar seen = measured(to_polar(sigmax::Vector<3>(position->data()) - sigmax::Vector<3>(at.data())),
                               {sigma[0], sigma[1] * degree, sigma[2] * degree}, random);
   if (!(seen.range > 0.0))
     throw InputError(
