@@ -323,21 +323,16 @@ void AnyTarget::output(TargetPoint& result) const {
   });
 }
 
-void AnyTarget::smoothed(const std::function<void(const TargetPoint&)>& visit,
-                         const std::function<void(const ModePairs&)>& paired) const {
+void AnyTarget::smoothed(const std::function<void(const TargetPoint&)>& visit) const {
   chosen_->visit([&](const auto& target) {
     TargetPoint point;
-    const auto tell_point = [&](const auto& kept, const auto& state) {
-      if (!visit) return;
+    target.life.smoothed(*target.filter, [&](const auto& kept, const auto& state) {
       point.time = kept.time;
       point.tag = kept.tag;
       point.is_start = kept.is_start;
       point.nis = kept.nis;
       chosen_->tell(*target.filter, state, point);
       visit(point);
-    };
-    target.life.smoothed(*target.filter, tell_point, [&](const auto& kept, const Table& log_pairs, bool is_last) {
-      if (paired) paired({kept.tag, kept.step.dt, is_last, {log_pairs.data(), log_pairs.size()}});
     });
   });
 }

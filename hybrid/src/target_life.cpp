@@ -201,8 +201,7 @@ bool TargetLife<Kind>::transform(Filter& filter, const double* A, const double* 
 
 template <ScalableUncertainty Kind>
 void TargetLife<Kind>::smoothed(const Filter& filter,
-                                const std::function<void(const Kept&, const HybridEstimate<Kind>&)>& visit,
-                                const std::function<void(const Kept&, const Table&, bool)>& paired) const {
+                                const std::function<void(const Kept&, const HybridEstimate<Kind>&)>& visit) const {
   FixedIntervalSmoother<Kind> smoother(filter);
   std::vector<HybridEstimate<Kind>> states;
   for (std::size_t first = 0, end = 0; first < record_.size(); first = end) {
@@ -214,7 +213,6 @@ void TargetLife<Kind>::smoothed(const Filter& filter,
       for (std::size_t k = end - 1; k-- > first;) {
         smoother.step(record_[k].step);
         states[k - first] = smoother.state();
-        paired(record_[k + 1], smoother.log_pairs(), k + 2 == end);
       }
     } catch (const std::domain_error& error) {
       throw std::domain_error("smoothing back to the start at " + std::to_string(record_[first].time) +

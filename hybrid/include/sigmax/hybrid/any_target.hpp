@@ -76,14 +76,6 @@ struct TargetPoint {
   std::optional<double> log_evidence, log_score;
 };
 
-/// What is known at the end of the modes before and after one step.
-struct ModePairs {
-  std::size_t tag = 0;                  ///< of the plot after
-  double dt = 0.0;                      ///< between, in s
-  bool is_last = false;                 ///< whether it is the last step before another start, or of all
-  std::span<const double> log_weights;  ///< of mode i before and j after, at i · modes + j
-};
-
 /// One stay of the mode in a history.
 struct ModeStay {
   double since;  ///< in s: the time of the first step in it
@@ -135,10 +127,8 @@ class AnyTarget {
   TargetPoint output() const;
   void output(TargetPoint& result) const;
 
-  /// Calls visit(point) for all that was recorded, see TargetRules::record and Target::smoothed, which also says when
-  /// it calls paired(pairs).
-  void smoothed(const std::function<void(const TargetPoint&)>& visit,
-                const std::function<void(const ModePairs&)>& paired = {}) const;
+  /// Calls visit(point) for all that was recorded, see TargetRules::record and Target::smoothed.
+  void smoothed(const std::function<void(const TargetPoint&)>& visit) const;
 
   /// When did the mode change? The best history by all that was recorded, see Target::explained; of a scheme that keeps
   /// no histories nothing.

@@ -47,9 +47,6 @@ class FixedIntervalSmoother {
   /// The smoothed state of the last step that it saw.
   const State& state() const { return state_; }
 
-  /// log w(i, j) of the last step back: mode i at the step it went to, j at the one after.
-  const Table& log_pairs() const { return joint_; }
-
  private:
   std::size_t modes() const { return system_.models().size(); }
   double smooth_pair(const Estimates& filtered, std::size_t i, std::size_t j);

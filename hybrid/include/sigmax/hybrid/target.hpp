@@ -86,13 +86,7 @@ class Target {
   /// knows nothing of what came after it. Throws std::domain_error if it cannot be smoothed, saying back to when.
   template <class Visit>
   void smoothed(const Visit& visit) const {
-    smoothed(visit, [](const Kept&, const Table&, bool) {});
-  }
-  /// Also calls paired(kept, log_pairs, is_last) for each step from one record to the next, backwards from the last one
-  /// of each start: log_pairs(i, j) is the smoothed weight of mode i before it and j after, and `kept` what came after.
-  template <class Visit, class Paired>
-  void smoothed(const Visit& visit, const Paired& paired) const {
-    life_.smoothed(filter_, std::cref(visit), std::cref(paired));
+    life_.smoothed(filter_, std::cref(visit));
   }
 
   /// When did the mode change? Calls visit(kept, mode) for the first step of each mode in the history that is the most

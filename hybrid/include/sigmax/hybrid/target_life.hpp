@@ -60,8 +60,7 @@ class TargetLife {
 
   Verdict take(Filter& filter, const Plot& plot, const Stepped& stepped);
   bool transform(Filter& filter, const double* A, const double* b, int axes);
-  void smoothed(const Filter& filter, const std::function<void(const Kept&, const HybridEstimate<Kind>&)>& visit,
-                const std::function<void(const Kept&, const Table&, bool)>& paired) const;
+  void smoothed(const Filter& filter, const std::function<void(const Kept&, const HybridEstimate<Kind>&)>& visit) const;
   void explained(const std::function<void(const Kept&, std::size_t)>& visit) const;
 
   const Life& now() const { return now_; }
