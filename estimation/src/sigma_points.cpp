@@ -25,6 +25,7 @@ class SigmaPoints {
   /// Throws std::domain_error, naming the model, if the estimate's covariance is not positive semi-definite.
   SigmaPoints(const ModelRef& model, const ConstView& estimate)
       : weights_(model.points),
+        mean_(estimate.mean),
         n_(estimate.n),
         centre_(weights_.centre_of_mean != 0.0 || weights_.centre_of_covariance != 0.0 ? 1 : 0),
         root_(n_ * n_),
@@ -45,6 +46,7 @@ class SigmaPoints {
   /// Where a point lies about the mean.
   double* offset(int point) { return offsets_ + point * n_; }
   const double* point(int place) { return points_ + place * n_; }
+  const double* mean() const { return mean_; }
   const double* root() { return root_; }
   /// The place of the first point up; those down are n behind.
   int up() const { return centre_; }
@@ -75,6 +77,7 @@ class SigmaPoints {
 
  private:
   SigmaPointWeights weights_;
+  const double* mean_;
   int n_;
   int centre_;
   Scratch<> root_;
@@ -102,18 +105,20 @@ void propagate(const ModelRef& model, SigmaPoints& points, double dt, double* me
     for (int k = 0; k < n; ++k) deviations[k + i * n] = (deviations[k + i * n] - first[k]) - shift[k];
 }
 
-/// The weighted mean of measurements, a column each: z₀ + Σ wᵢ (zᵢ − z₀) by the sensor's difference, or its own.
-void mean_of(const SensorRef& sensor, SigmaPoints& points, const double* seen, int m, double* mean) {
+/// The weighted mean of measurements, a column each: the sensor's own, or z₀ + Σ wᵢ (zᵢ − z₀) by its difference, where
+/// z₀ is what it sees at the mean of the points.
+void mean_of(const SensorRef& sensor, SigmaPoints& points, const double* seen, const double* at_mean, int m,
+             double* mean) {
   if (sensor.table->mean) {
     Scratch<32> weights(points.count());
     for (int i = 0; i < points.count(); ++i) weights[i] = points.in_mean(i);
     return sensor.table->mean(sensor.sensor, seen, weights, m, points.count(), mean);
   }
   Columns apart(m * points.count());
-  difference(sensor, seen, seen, m, points.count(), apart);
-  std::copy_n(seen, m, mean);
-  for (int i = 1; i < points.count(); ++i)
-    for (int k = 0; k < m; ++k) mean[k] += points.weight() * apart[k + i * m];
+  difference(sensor, seen, at_mean, m, points.count(), apart);
+  std::copy_n(at_mean, m, mean);
+  for (int i = 0; i < points.count(); ++i)
+    for (int k = 0; k < m; ++k) mean[k] += points.in_mean(i) * apart[k + i * m];
 }
 
 /// What h makes of the points: its mean, and the deviations from it. Points that the sensor cannot tell from the mean
@@ -133,7 +138,12 @@ void measure(const ModelRef& model, SigmaPoints& points, const SensorRef& sensor
     if (there) at_mean = i;
   }
   require_finite(deviations, m, points.count(), "h(x)", model, points.point(0));
-  mean_of(sensor, points, deviations, m, mean);
+  Scratch<6> centre(m);
+  if (at_mean >= 0)
+    std::copy_n(deviations + at_mean * m, m, centre.data());
+  else
+    sensor.table->measure(sensor.sensor, sensor.model, points.mean(), n, m, centre, nullptr);
+  mean_of(sensor, points, deviations, centre, m, mean);
   difference(sensor, deviations, mean, m, points.count(), deviations);
 }
 

@@ -20,15 +20,16 @@ TEST(Member, OfALinearMotionPredictsAsTheKalmanFilterExactly) {
   }
 }
 
-/// The same scene, turned by half a turn about the radar, so that the azimuth jumps among the points, or not.
+/// The same scene, turned by half a turn about the radar, so that the azimuth jumps among the points, or not. Those of
+/// a wide estimate lie on both sides of the radar.
 TEST(Member, AnAzimuthAcrossHalfATurnIsAnAzimuthLikeAnother) {
   const SquareMatrix<2> R{{1.0, 0.0}, {0.0, 0.0025}};
-  for (const double truth : {-0.001, 0.0, 0.001})
+  for (const auto& [wide, off] : {std::pair{2.0, -0.001}, {2.0, 0.0}, {2.0, 0.001}, {60.0, 0.02}, {120.0, -0.5}})
     for (const double seen : {-0.05, 0.001, 0.05})
       for (const AnyModel& member : every_member(dwna<2>(1.0))) {
-        const auto posterior_at = [&](double turn, Innovation<2>& innovation) {
+        const auto posterior_at = [&, sigma = wide, truth = off](double turn, Innovation<2>& innovation) {
           EstimateOf<AnyModel> x{Vector<4>(100.0 * std::cos(turn + truth), 100.0 * std::sin(turn + truth), 0.0, 0.0),
-                                 SquareMatrix<4>::Identity() * 4.0};
+                                 SquareMatrix<4>::Identity() * sigma * sigma};
           const double azimuth = std::remainder(turn + seen, 2.0 * std::numbers::pi);
           innovation = update(member, x, Gaussian<2>{Vector<2>(101.0, azimuth), R}, PolarSensor<2>{}, x);
           return x;
