@@ -115,9 +115,10 @@ class ForwardBackward {
   std::vector<ScaledNumber> numbers_;  // of a report
 };
 
-/// The same where each number has an exponent of its own.
-void run_without_bounds(const AnyAlgebra& algebra, Transitions transitions, Reports reports, Table& table,
-                        ScaledNumber& total) {
+/// The same where each number has an exponent of its own. Throws std::domain_error, naming the step, if the reports up
+/// to it exclude every outcome.
+void run_without_bounds(const Outcomes& variable, const AnyAlgebra& algebra, Transitions transitions, Reports reports,
+                        Table& table, ScaledNumber& total) {
   using Row = kernels::UnboundedRow;
   const std::size_t times = table.rows(), n = table.columns();
   std::vector<Row> forward(times);
@@ -125,9 +126,11 @@ void run_without_bounds(const AnyAlgebra& algebra, Transitions transitions, Repo
   for (std::size_t t = 0; t + 1 < times; ++t) {
     forward[t + 1].assign_composition(*transitions[t], forward[t], algebra, nullptr);
     for (std::size_t i = 0; i < n; ++i) forward[t + 1][i] = forward[t + 1][i] * number_of(reports[t], i);
+    if (forward[t + 1].is_zero())
+      throw std::domain_error("the evidence up to step " + std::to_string(t + 1) +
+                              " excludes every outcome of variable '" + variable.name() + "'");
   }
   total = forward[times - 1].total(algebra);
-  if (total.is_zero()) return;
   Row after(n, 1.0), before;
   for (std::size_t t = times; t-- > 0;) {
     Row& row = forward[t];
@@ -154,8 +157,7 @@ Posteriors forward_backward(const Outcomes& variable, std::span<const double> st
   ScaledNumber total;
   const bool sufficed = with_scaling(
       algebra, [&](auto a) { return ForwardBackward(a, algebra).run(transitions, reports, table, total); });
-  if (!sufficed) run_without_bounds(algebra, transitions, reports, table = begin(), total);
-  if (total.is_zero()) check::excluded(variable);
+  if (!sufficed || total.is_zero()) run_without_bounds(variable, algebra, transitions, reports, table = begin(), total);
   return {std::move(table), total.log()};
 }
 

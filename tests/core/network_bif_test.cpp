@@ -80,6 +80,7 @@ TEST(Bif, RefusesRowsThatAreNotRoundedButWrong) {
 
 TEST(Bif, NamesFileLineWhatWasExpectedAndWhatWasFound) {
   EXPECT_TRUE(refused("", {"test.bif:1:", "'network'", "the end of the file"}));
+  EXPECT_TRUE(refused("\x1F\x8B\x08\n", {"test.bif:1:", "compressed", "gunzip"}));
   EXPECT_TRUE(refused("\n\nbayes x {}", {"test.bif:3:", "'network'", "'bayes'"}));
   EXPECT_TRUE(refused("network {", {"test.bif:1:", "name of the network", "'{'"}));
   EXPECT_TRUE(refused("network x {", {"test.bif:1:", "'property' or '}'", "the end of the file"}));

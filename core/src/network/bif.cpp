@@ -36,6 +36,7 @@ class Reader {
  public:
   Reader(std::istream& in, std::string_view file) : text_(contents(in)), file_(file), rest_(text_) {
     if (in.bad() || (text_.empty() && in.fail())) fail(rest_, "expected a network, found that nothing can be read");
+    if (rest_.starts_with("\x1F\x8B")) fail(rest_, "expected text, found compressed data: unpack it by gunzip");
     if (rest_.starts_with("\xEF\xBB\xBF")) rest_.remove_prefix(3);  // a byte-order mark
     take();
   }

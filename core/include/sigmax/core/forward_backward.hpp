@@ -87,8 +87,8 @@ ChainPosteriors<Kind> forward_backward(const Distribution<Kind>& start, const Tr
 ///     posteriors.at(17);
 ///
 /// It takes two products of the transition with a row a report, in plain doubles; where these do not hold everything,
-/// all is done again with an exponent for each number. Throws std::domain_error if the reports exclude every outcome,
-/// std::invalid_argument if the variables differ.
+/// all is done again with an exponent for each number. Throws std::domain_error, naming the step, if the reports up
+/// to it exclude every outcome, std::invalid_argument if the variables differ.
 template <Uncertainty Kind>
 ChainPosteriors<Kind> forward_backward(const Distribution<Kind>& start, const Relation<Kind, Kind>& transition,
                                        const std::vector<Likelihood<Kind>>& reports) requires
