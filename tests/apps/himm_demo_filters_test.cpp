@@ -10,8 +10,6 @@
 
 namespace himm_demo_filters_test {
 
-using support::degree;
-
 /// What a name stands for, in the restatement's terms.
 struct Named {
   std::string name;
@@ -75,39 +73,6 @@ TEST(HimmDemoFilters, EveryNamedOneEqualsThePlainRestatement) {
   ASSERT_EQ(imm.size(), likely.size());
   for (std::size_t k = 0; k < imm.size(); ++k) EXPECT_EQ(imm[k].at("weight_dwna"), likely[k].at("weight_dwna"));
   EXPECT_EQ(found.size(), points.size() * (named_filters().size() + 1)) << "all names are known here";
-}
-
-TEST(HimmDemoFilters, ACoordinatedTurnByTheUnscentedFilterEqualsTheLibrary) {
-  const auto points = turning_target();
-  const auto found = estimates(
-      csv(points), {"filters=imm", "models=[dwna,ct]", "member=ukf", "sigma_w=[1,0.5]", "turn_drift_deg_s=0.3",
-                    "start_sigma_turn_deg_s=4", "sigma_position_m=5", "transition_probability=[[0.9,0.1],[0.2,0.8]]"});
-  ASSERT_EQ(found.size(), points.size() - 3);
-
-  const auto measured = [&](std::size_t k) {
-    return Gaussian<2>{Vector<2>(points[k].z[0], points[k].z[1]), 25.0 * SquareMatrix<2>::Identity()};
-  };
-  const std::tuple models{dwna<2>(1.0), Unscented{CoordinatedTurn<2>(0.25, 0.09 * degree * degree)}};
-  const auto straight = two_point_start<2>({1.0, measured(1)}, {2.0, measured(2)});
-  Gaussian<5> turning{Vector<5>::Zero(), SquareMatrix<5>::Zero()};
-  turning.mean.head<4>() = straight.mean;
-  turning.covariance.topLeftCorner<4, 4>() = straight.covariance;
-  turning.covariance(4, 4) = 16.0 * degree * degree;
-  const RandomVariable mode{"mode", 2};
-  InteractingMultipleModel filter{models, Relation{mode, mode, {{0.9, 0.1}, {0.2, 0.8}}},
-                                  std::tuple{straight, turning}};
-  for (std::size_t k = 3; k < points.size(); ++k) {
-    filter.step(1.0, measured(k));
-    const auto estimate = filter.estimate();
-    const auto& row = found[k - 3];
-    SCOPED_TRACE("step " + std::to_string(k));
-    expect_row(row, {entries(estimate.mean.head<4>()), dense(estimate.covariance.topLeftCorner<4, 4>())}, 2);
-    ASSERT_CLOSE(std::stod(row.at("turn_rate_deg_s")), estimate.mean(4) / degree, 1e-9);
-    EXPECT_EQ(row.at("ax_mps2"), "");
-    ASSERT_CLOSE(std::stod(row.at("weight_dwna")), filter.belief()[0], 1e-9);
-    ASSERT_CLOSE(std::stod(row.at("weight_ct")), filter.belief()[1], 1e-9);
-    ASSERT_CLOSE(std::stod(row.at("nis")), filter.nis(), 1e-9);
-  }
 }
 
 std::string estimates_of(const std::string& text, const Arguments& sets) { return tracked(text, sets).estimates; }

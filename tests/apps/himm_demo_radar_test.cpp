@@ -175,6 +175,7 @@ TEST(HimmDemoRadar, InItsOwnSpaceEveryModelOfAFilterSeesIt) {
     expect_near<2>(row, {estimate.mean.head<4>(), estimate.covariance.topLeftCorner<4, 4>()}, filter.nis());
     if (testing::Test::HasFatalFailure()) return;
     ASSERT_CLOSE(std::stod(row.at("turn_rate_deg_s")), estimate.mean(4) / degree, 1e-9);
+    EXPECT_EQ(row.at("ax_mps2"), "");
     ASSERT_CLOSE(std::stod(row.at("weight_ct")), filter.belief()[1], 1e-9);
   }
 }
