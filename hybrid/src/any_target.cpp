@@ -311,7 +311,7 @@ void AnyTarget::output(TargetPoint& result) const {
     result.time = target.life.now().time;
     result.nis.reset();
     result.normalized_innovation.clear();
-    if (filter.measured()) {
+    if (filter.accepted()) {
       double numbers[max_measurement_size];
       const int m = filter.normalized_innovation(numbers);
       result.normalized_innovation.assign(numbers, numbers + m);

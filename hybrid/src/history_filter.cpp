@@ -71,7 +71,7 @@ void HistoriesOfModes<Kind>::require_rules() const {
 }
 
 template <ScalableUncertainty Kind>
-bool HistoriesOfModes<Kind>::measure(double dt, const Seen& seen, double gate) {
+bool HistoriesOfModes<Kind>::measure(double dt, const Seen& seen, double limit) {
   branch(dt, predicted_);
   HistorySet& set = next().histories;
   compared_ = set.size();
@@ -81,7 +81,7 @@ bool HistoriesOfModes<Kind>::measure(double dt, const Seen& seen, double gate) {
     log_prior_[h] = set[h].log_weight;
     set[h].log_weight += rules_.tempering * innovation.log_likelihood;
   }
-  if (!this->passes(gate)) return false;
+  if (!this->passes(limit)) return false;
   summarize();
   show_innovations();
   return true;

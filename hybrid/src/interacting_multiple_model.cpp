@@ -20,13 +20,13 @@ InteractingFilter<Kind>::InteractingFilter(const std::vector<AnyModel>& models, 
 }
 
 template <ScalableUncertainty Kind>
-bool InteractingFilter<Kind>::measure(double dt, const Seen& seen, double gate) {
+bool InteractingFilter<Kind>::measure(double dt, const Seen& seen, double limit) {
   mix(dt);                                     // step 1, (51)–(59)
   for (std::size_t j = 0; j < modes(); ++j) {  // step 2, (60), (61)
     this->predict_model(j, next().estimates.view(j), dt, predicted_.view(j));
     this->update_model(j, predicted_.view(j), seen, next().estimates.view(j), innovations_[j]);
   }
-  if (!this->passes(gate)) return false;
+  if (!this->passes(limit)) return false;
   for (std::size_t j = 0; j < modes(); ++j) {
     check::sound(this->model(j), next().estimates.view(j));
     likelihood_.set_log(j, innovations_[j].log_likelihood);
@@ -48,7 +48,7 @@ void InteractingFilter<Kind>::miss(double dt) {
 
 /// By the short form for motions along independent axes, with a measurement of the position or none.
 template <ScalableUncertainty Kind>
-bool InteractingFilter<Kind>::shortened(double dt, const Seen* seen, double gate) {
+bool InteractingFilter<Kind>::shortened(double dt, const Seen* seen, double limit) {
   if (!this->shortcut_.takes(seen ? &seen->sensor : nullptr, seen ? seen->z.n : 0)) return false;
   if (!this->shortens(dt)) return false;
   detail::kinematic::Told told;
@@ -78,7 +78,7 @@ bool InteractingFilter<Kind>::shortened(double dt, const Seen* seen, double gate
       if (interaction_.likelihood == LikelihoodForm::density)
         innovation.log_likelihood += 0.5 * (std::log(told.precision[j]) - seen->z.n * std::log(2.0 * std::numbers::pi));
     }
-    taken = this->passes(gate);
+    taken = this->passes(limit);
   }
   if (seen && !taken && !take(nullptr, nullptr)) return false;
   const auto posterior = next().belief.logs(detail::ByLaw{});

@@ -33,7 +33,7 @@ void MultipleModelFilter<Kind>::restore(const State& state) {
   check::same(system_.mode_variable(), state.belief.variable(), "restore");
   states_[current_] = state;
   read_weights(belief(), weights_.data());
-  measured_ = false;
+  seen_ = accepted_ = false;
 }
 
 template <ScalableUncertainty Kind>
@@ -57,7 +57,7 @@ void MultipleModelFilter<Kind>::forget_mode() {
   states_[current_].belief = Belief{uninformative(system_.mode_variable())};
   read_weights(belief(), weights_.data());
   states_[current_].most_likely_mode = detail::select(modes(), logs_of(belief()), 0, interaction_.output_tie);
-  measured_ = false;
+  seen_ = accepted_ = false;
 }
 
 template <ScalableUncertainty Kind>
@@ -146,7 +146,7 @@ int MultipleModelFilter<Kind>::normalized_innovation(double* numbers) const {
 
 template <ScalableUncertainty Kind>
 AnyInnovation MultipleModelFilter<Kind>::predicted_innovation() const {
-  if (!measured_) throw std::logic_error("nis() after a step without a measurement");
+  if (!seen_) throw std::logic_error("nis() after a step without a measurement");
   const auto [innovations, log_weights, most_likely] = predictors();
   detail::OfModes weights(static_cast<int>(log_weights.size()));
   std::transform(log_weights.begin(), log_weights.end(), weights.data(), [](double log) { return std::exp(log); });
@@ -176,14 +176,14 @@ double MultipleModelFilter<Kind>::gate_distance() const {
 }
 
 template <ScalableUncertainty Kind>
-bool MultipleModelFilter<Kind>::passes(double gate, std::optional<double> distance) {
+bool MultipleModelFilter<Kind>::passes(double limit, std::optional<double> distance) {
   gate_distance_ = distance;
-  return gate == no_gate || gate_distance() <= gate;
+  return limit == std::numeric_limits<double>::infinity() || gate_distance() <= limit;
 }
 
 template <ScalableUncertainty Kind>
 void MultipleModelFilter<Kind>::predict_mode(double dt) {
-  measured_ = false;
+  seen_ = accepted_ = false;
   compose(system_.transition(dt), belief(), prior_);
   predicted_mode_ = detail::select(modes(), logs_of(prior_), most_likely_mode(), interaction_.output_tie);
   describe_models(dt);
@@ -230,28 +230,33 @@ bool MultipleModelFilter<Kind>::shortens(double dt) {
 }
 
 template <ScalableUncertainty Kind>
-void MultipleModelFilter<Kind>::step(double dt, const Seen* seen, double gate) {
+void MultipleModelFilter<Kind>::step(double dt, const Seen* seen, const Gate& gate) {
   require(dt, seen);
-  if (shortened(dt, seen, gate)) return;
-  bool taken = false;
-  try {
-    if (seen)
-      taken = measure(dt, *seen, gate);
+  const double limit = seen ? gate.limit(seen->z.n) : 0.0;
+  if (!shortened(dt, seen, limit)) {
+    bool accepted = false;
+    try {
+      if (seen)
+        accepted = measure(dt, *seen, limit);
+      else
+        miss(dt);
+    } catch (const std::domain_error& error) {
+      throw std::domain_error(this_step(dt) + ": " + error.what());
+    }
+    if (seen && !accepted)
+      step(dt);
     else
-      miss(dt);
-  } catch (const std::domain_error& error) {
-    throw std::domain_error(this_step(dt) + ": " + error.what());
+      conclude(accepted);
   }
-  if (seen && !taken) return step(dt);
-  conclude(taken);
+  seen_ = seen != nullptr;
 }
 
 template <ScalableUncertainty Kind>
 RecordedStep<Kind> MultipleModelFilter<Kind>::recorded(double dt, const Seen* seen) const {
-  if (!seen && measured_)
+  if (!seen && accepted_)
     throw std::logic_error("recorded(dt) after a step with a measurement; expected recorded(dt, z)");
   RecordedStep<Kind> result{dt, {estimates(), belief(), most_likely_mode()}, {}};
-  if (!measured_) return result;
+  if (!accepted_) return result;
   const Estimates predicted = this->predicted();
   const int m = seen->z.n;
   for (std::size_t j = 0; j < modes(); ++j) {
@@ -276,12 +281,12 @@ RecordedStep<Kind> MultipleModelFilter<Kind>::recorded(double dt, const Seen* se
 }
 
 template <ScalableUncertainty Kind>
-void MultipleModelFilter<Kind>::conclude(bool measured) {
+void MultipleModelFilter<Kind>::conclude(bool accepted) {
   next().most_likely_mode =
       detail::select(modes(), logs_of(next().belief), most_likely_mode(), interaction_.output_tie);
   current_ = 1 - current_;
   read_weights(belief(), weights_.data());
-  measured_ = measured;
+  accepted_ = accepted;
   ++steps_;
 }
 

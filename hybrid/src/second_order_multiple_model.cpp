@@ -19,7 +19,7 @@ SecondOrderFilter<Kind>::SecondOrderFilter(const std::vector<AnyModel>& models, 
       predecessor_(modes(), modes()) {}
 
 template <ScalableUncertainty Kind>
-bool SecondOrderFilter<Kind>::measure(double dt, const Seen& seen, double gate) {
+bool SecondOrderFilter<Kind>::measure(double dt, const Seen& seen, double limit) {
   branch(dt);
   for (std::size_t j = 0; j < modes(); ++j) {
     for (std::size_t l = 0; l < modes(); ++l) {
@@ -33,7 +33,7 @@ bool SecondOrderFilter<Kind>::measure(double dt, const Seen& seen, double gate) 
     summarize(j);
   }
   const auto log_fit = [this](std::size_t each) { return log_fit_[each]; };
-  const bool taken = this->passes(gate, -2.0 * detail::log_total<Kind>(log_fit_.size(), log_fit));
+  const bool taken = this->passes(limit, -2.0 * detail::log_total<Kind>(log_fit_.size(), log_fit));
   if (taken) merge(pairs_);
   return taken;
 }

@@ -5,7 +5,6 @@
 #include <stdexcept>
 #include <string>
 
-#include <sigmax/estimation/chi_square.hpp>
 #include <sigmax/estimation/filtering.hpp>
 
 namespace sigmax::detail {
@@ -20,11 +19,8 @@ std::optional<Seen> seen_of(const Plot& plot) {
 
 template <ScalableUncertainty Kind>
 TargetLife<Kind>::TargetLife(const Filter& filter, StartRule start, const TargetRules& rules)
-    : start_(std::move(start)), rules_(rules) {
+    : start_(std::move(start)), rules_(rules), gate_(Gate::probability(rules.gate_probability)) {
   if (!(rules.longest_gap > 0.0)) throw std::invalid_argument("the longest gap of a target is not positive");
-  for (int m = 1; m <= max_measurement_size; ++m)
-    gates_[static_cast<std::size_t>(m)] =
-        rules.gate_probability == 1.0 ? no_gate : chi_square_quantile(rules.gate_probability, m);
   now_.waiting.reserve(room());
   buffer_.assign(rules.buffer + 1, Entry{filter.state(), now_, Plot{}});
   for (Entry& entry : buffer_) entry.life.waiting.reserve(room());
@@ -116,9 +112,9 @@ template <ScalableUncertainty Kind>
 Verdict TargetLife<Kind>::step(Filter& filter, const Plot& plot) {
   const double dt = plot.time - now_.time;
   const auto seen = seen_of(plot);
-  filter.step(dt, seen ? &*seen : nullptr, gates_[static_cast<std::size_t>(plot.size())]);
+  filter.step(dt, seen ? &*seen : nullptr, gate_);
   now_.time = plot.time;
-  if (filter.measured()) {
+  if (filter.accepted()) {
     now_.accepted_time = plot.time;
     now_.waiting.clear();
   } else if (plot.seen()) {
@@ -126,7 +122,7 @@ Verdict TargetLife<Kind>::step(Filter& filter, const Plot& plot) {
     if (rules_.rejections > 0) keep_waiting(plot);
   }
   record(filter, dt, plot, false);
-  return filter.measured() ? Verdict::accepted : plot.seen() ? Verdict::rejected : Verdict::missed;
+  return filter.accepted() ? Verdict::accepted : plot.seen() ? Verdict::rejected : Verdict::missed;
 }
 
 /// Asks for a start with the plots that wait; those that are not in it are steps after it.
@@ -172,7 +168,7 @@ void TargetLife<Kind>::begin(const Filter& filter, double time, const Plot& plot
 template <ScalableUncertainty Kind>
 void TargetLife<Kind>::record(const Filter& filter, double dt, const Plot& plot, bool is_start) {
   if (!rules_.record) return;
-  const auto seen = filter.measured() ? seen_of(plot) : std::nullopt;
+  const auto seen = filter.accepted() ? seen_of(plot) : std::nullopt;
   const auto histories = filter.state().histories.all();
   record_.push_back({now_.time,
                      plot.tag,

@@ -225,7 +225,7 @@ Shown shown(const Filter& filter) {
   const auto sized = [](const auto& estimate) { return State{estimate.mean, estimate.covariance}; };
   Shown result{filter.components(),       filter.estimates(),       {logs.begin(), logs.end()},
                filter.most_likely_mode(), sized(filter.estimate()), sized(filter.most_likely_estimate()),
-               filter.measured(),         filter.gate_distance(),   filter.log_evidence(),
+               filter.accepted(),         filter.gate_distance(),   filter.log_evidence(),
                filter.log_score()};
   if (!result.measured) return result;
   result.nis = filter.nis();
@@ -254,13 +254,13 @@ class AnyFilter : public Shown {
         filter_);
   }
   template <class Sensor>
-  void step(double dt, const MeasurementOf<Sensor>& z, const Sensor& sensor, double gate = no_gate) {
+  void step(double dt, const MeasurementOf<Sensor>& z, const Sensor& sensor, const Gate& gate = {}) {
     do_with([&](auto& filter) { filter.step(dt, z, sensor, gate); });
   }
   void step(double dt) {
     do_with([&](auto& filter) { filter.step(dt); });
   }
-  void step(const Scan& scan, double gate = no_gate) {
+  void step(const Scan& scan, const Gate& gate = {}) {
     scan.z ? step(scan.dt, *scan.z, PositionSensor<2>{}, gate) : step(scan.dt);
   }
   template <class Start>

@@ -29,8 +29,26 @@ void of_two_models(double acceleration, const Act& act) {
   });
 }
 
+/// A number alone does not say whether it is a probability or a distance.
+template <class Limit>
+concept LimitsAStep = requires(InteractingMultipleModel<std::vector<AnyModel>, Random>& filter, Limit limit) {
+  filter.step(1.0, {Vector<2>(), SquareMatrix<2>()}, limit);
+};
+static_assert(LimitsAStep<Gate> && !LimitsAStep<double>);
+
+TEST(Gate, LetsASquaredDistancePassOrItsProbability) {
+  for (int m = 1; m <= max_measurement_size; ++m) {
+    EXPECT_EQ(Gate{}.limit(m), std::numeric_limits<double>::infinity());
+    EXPECT_EQ(Gate::probability(1.0).limit(m), std::numeric_limits<double>::infinity());
+    EXPECT_EQ(Gate::squared_distance(13.8).limit(m), 13.8);
+    EXPECT_NEAR(chi_square_cdf(Gate::probability(0.999).limit(m), m), 0.999, 1e-12);
+  }
+  EXPECT_INVALID(("between 0 and 1"), Gate::probability(0.0));
+  EXPECT_INVALID(("squared distance", "negative"), Gate::squared_distance(-1.0));
+}
+
 TEST(Gate, DoesNotStarveAFilterOfATurnOfTwoG) {
-  const double gate = chi_square_quantile(0.999, 2);
+  const Gate gate = Gate::probability(0.999);
   of_two_models(20.0, [&](AnyFilter filter) {
     std::size_t in_a_row = 0, longest = 0;
     for (double t = 3.0; t <= 100.0; t += 1.0) {
@@ -68,7 +86,7 @@ TEST(Gate, ATargetThatTurnsByFourGIsFoundAgain) {
 
 /// Numbers whose squares are none, as a missing value is sometimes written.
 TEST(Gate, RejectsWhatIsBeyondAllNumbers) {
-  const double gate = chi_square_quantile(0.999999, 2);
+  const Gate gate = Gate::probability(0.999999);
   for_each(every_filter(), [&](const TargetChoice& choice) {
     AnyFilter filter(choice);
     for (const Scan& scan : manoeuvring_target(20)) filter.step(scan);
@@ -80,7 +98,7 @@ TEST(Gate, RejectsWhatIsBeyondAllNumbers) {
           auto gated = filter;
           gated.step({0.2, at(where.x(), where.y(), variance)}, gate);
           EXPECT_FALSE(gated.measured);
-          EXPECT_GT(gated.gate_distance, gate);
+          EXPECT_GT(gated.gate_distance, chi_square_quantile(0.999999, 2));
           EXPECT_PRED_FORMAT3(same_state, gated, missed, 0.0);
         }
         filter.do_with([&](const auto& one) {

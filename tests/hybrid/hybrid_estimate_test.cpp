@@ -16,8 +16,9 @@ TEST(RecordedStep, HasWhatTheMeasurementToldOfEachModeIfThereWasOneAndItWasTaken
     EXPECT_EQ(step.state.belief.log(1), filter.belief().log(1));
     EXPECT_EQ(step.state.most_likely_mode, filter.most_likely_mode());
     EXPECT_REFUSED(std::logic_error, ("expected recorded(dt, z)"), filter.recorded(0.5));
-    filter.step(0.5, z, sensor, 0.0);
-    EXPECT_TRUE(filter.recorded(0.5, z, sensor).seen.empty()) << "a gate rejected it";
+    const Gate closed = Gate::squared_distance(0.0);
+    filter.step(0.5, z, sensor, closed);
+    EXPECT_TRUE(filter.recorded(0.5, z, sensor, closed).seen.empty()) << "a gate rejected it";
   });
 }
 

@@ -240,10 +240,11 @@ TEST(MultipleModelFilter, AGateMakesAMissOfAMeasurementOutsideIt) {
       missing.step(scan.dt);
       for (const double gate : {1.0, taking.gate_distance}) {
         auto same = gated;
-        same.step(scan, gate);
+        same.step(scan, Gate::squared_distance(gate));
         ASSERT_EQ(same.gate_distance, taking.gate_distance);
         ASSERT_EQ(same.log_score, taking.log_score) << "also where it is not taken";
         ASSERT_EQ(same.measured, taking.gate_distance <= gate);
+        same.do_with([&](const auto& filter) { ASSERT_EQ(filter.nis(), taking.nis); });
         ASSERT_PRED_FORMAT3(same_state, same, same.measured ? taking : missing, 0.0);
         ++(same.measured ? taken : missed);
       }
@@ -375,7 +376,7 @@ TEST(MultipleModelFilter, ThereIsNoNisWithoutAMeasurement) {
     filter.step(0.2, *manoeuvring_target(1)[0].z, PositionSensor<2>{});
     EXPECT_CLOSE(filter.normalized_innovation().squaredNorm(), filter.nis(), 1e-12);
     filter.step(0.2);
-    EXPECT_FALSE(filter.measured());
+    EXPECT_FALSE(filter.accepted());
     EXPECT_REFUSED(std::logic_error, ("without a measurement"), filter.normalized_innovation());
   });
 }

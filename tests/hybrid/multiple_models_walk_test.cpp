@@ -19,10 +19,11 @@ TEST(MultipleModelsWalk, SmoothsAndFollowsATarget) {
   const Gaussian<3> measured{Vector<3>(1.0, 2.0, 3.0), 25.0 * SquareMatrix<3>::Identity()};
   const std::vector<std::pair<double, Gaussian<3>>> measurements(4, {0.5, measured});
 
+  const Gate gate = Gate::probability(0.999);  // or Gate::squared_distance(13.8)
   std::vector record{filter.recorded(0.0)};
   for (const auto& [dt, z] : measurements) {
-    filter.step(dt, z);
-    record.push_back(filter.recorded(dt, z));
+    filter.step(dt, z, gate);
+    record.push_back(filter.recorded(dt, z, gate));
   }
   const auto smoothed = smooth(filter, record);
   const auto first = filter.estimate(smoothed.front());

@@ -33,7 +33,7 @@ TEST(TargetLife, IsSmoothedFromStartToStartAsTheFiltersOwnRecordIs) {
         if (is_start) segments.emplace_back();
         const double dt = is_start ? 0.0 : target.time() - times.back();
         times.push_back(target.time());
-        const bool measured = target.filter().measured();
+        const bool measured = target.filter().accepted();
         nis.push_back(measured ? std::optional(target.filter().nis()) : std::nullopt);
         segments.back().push_back(measured ? target.filter().recorded(dt, *each.position<2>(), PositionSensor<2>{})
                                            : target.filter().recorded(dt));

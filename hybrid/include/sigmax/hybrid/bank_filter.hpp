@@ -50,17 +50,18 @@ class BankFilter : public Filter {
                    rules...) {}
 
   /// One cycle, `dt` ≥ 0 seconds after the last, with the measurement z, its covariance R, and the sensor that measured
-  /// it: another one each time, if need be. If its `gate_distance()` is above `gate`, it counts as missed.
+  /// it: another one each time, if need be. Where its `gate_distance()` is beyond the gate, it counts as missed, and
+  /// `accepted()` is false.
   /// Throws std::invalid_argument if dt or the measurement is not finite, std::domain_error, saying in which step, if S
   /// is not positive definite or every mode is excluded. The filter's state is then what it was before.
   template <SensorOfBank<Models> Sensor>
-  void step(double dt, const MeasurementOf<Sensor>& z, const Sensor& sensor, double gate = no_gate) {
+  void step(double dt, const MeasurementOf<Sensor>& z, const Sensor& sensor, const Gate& gate = {}) {
     const Seen seen{detail::view(z), detail::sensor_of_models<Models>(sensor)};
     Filter::step(dt, &seen, gate);
   }
 
   /// The same with a measurement of the position, which leads the state of every model.
-  void step(double dt, const Measurement& z, double gate = no_gate) requires(axes != 0) {
+  void step(double dt, const Measurement& z, const Gate& gate = {}) requires(axes != 0) {
     const Seen seen = seen_at(z);
     Filter::step(dt, &seen, gate);
   }
@@ -72,11 +73,11 @@ class BankFilter : public Filter {
   /// as missed. Throws std::logic_error without a measurement if the step had one.
   using Filter::recorded;
   template <Sensing Sensor>
-  RecordedStep<kind> recorded(double dt, const MeasurementOf<Sensor>& z, const Sensor& sensor) const {
+  RecordedStep<kind> recorded(double dt, const MeasurementOf<Sensor>& z, const Sensor& sensor, const Gate& = {}) const {
     const Seen seen{detail::view(z), detail::sensor_of_models<Models>(sensor)};
     return Filter::recorded(dt, &seen);
   }
-  RecordedStep<kind> recorded(double dt, const Measurement& z) const requires(axes != 0) {
+  RecordedStep<kind> recorded(double dt, const Measurement& z, const Gate& = {}) const requires(axes != 0) {
     const Seen seen = seen_at(z);
     return Filter::recorded(dt, &seen);
   }

@@ -66,7 +66,7 @@ class HistoriesOfModes : public MultipleModelFilter<Kind> {
   /// The histories: of the innovation's distance, the evidence and the score, in which tempering does not enter.
   typename Filter::Predictors predictors() const override;
   void begin() override;
-  bool measure(double dt, const Seen& seen, double gate) override;
+  bool measure(double dt, const Seen& seen, double limit) override;
   void miss(double dt) override;
   Estimates predicted() const override;
   void branch(double dt, HistorySet& predicted);

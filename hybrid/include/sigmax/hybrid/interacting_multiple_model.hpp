@@ -31,9 +31,9 @@ class InteractingFilter : public MultipleModelFilter<Kind> {
   using Filter::prior_;
   using Filter::system_;
 
-  bool measure(double dt, const Seen& seen, double gate) override;
+  bool measure(double dt, const Seen& seen, double limit) override;
   void miss(double dt) override;
-  bool shortened(double dt, const Seen* seen, double gate) override;
+  bool shortened(double dt, const Seen* seen, double limit) override;
   Estimates predicted() const override { return predicted_; }
   void mix(double dt);
 

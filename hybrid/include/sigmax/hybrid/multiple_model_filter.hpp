@@ -10,6 +10,7 @@
 #include <vector>
 
 #include <sigmax/hybrid/components.hpp>
+#include <sigmax/hybrid/gate.hpp>
 #include <sigmax/hybrid/hybrid_estimate.hpp>
 #include <sigmax/hybrid/interaction.hpp>
 #include <sigmax/hybrid/jump_markov_system.hpp>
@@ -17,9 +18,6 @@
 #include <sigmax/hybrid/mixture.hpp>
 
 namespace sigmax {
-
-/// A gate that every measurement passes.
-inline constexpr double no_gate = std::numeric_limits<double>::infinity();
 
 /// The innovation of a model: of any sensor, of six quantities at most.
 struct AnyInnovation {
@@ -85,7 +83,7 @@ class MultipleModelFilter {
   virtual void transform(const double* A, const double* b, int axes);
 
   /// One cycle, with a measurement or without; see BankFilter.
-  void step(double dt, const Seen* seen = nullptr, double gate = no_gate);
+  void step(double dt, const Seen* seen = nullptr, const Gate& gate = {});
 
   /// What the last step left for a smoother; it takes what the step took. A measurement that is not linear is
   /// linearised where its mode predicted it. Throws std::logic_error without a measurement if the step had one.
@@ -110,10 +108,10 @@ class MultipleModelFilter {
   /// possible, near Σ π they exclude each other.
   double beta() const requires SelectiveAlgebra<AlgebraOf<Kind>>;
 
-  /// Whether the last step had a measurement, and took it.
-  bool measured() const { return measured_; }
+  /// Whether the last step had a measurement, and it passed the gate.
+  bool accepted() const { return accepted_; }
 
-  /// The last innovation of each model; of value only if `measured()`.
+  /// The last innovation of each model; of value after a step with a measurement, accepted or not.
   const std::vector<AnyInnovation>& innovations() const { return innovations_; }
 
   /// Normalised innovation squared of the predicted measurement, its mixture over the mode collapsed as the mode's kind
@@ -123,7 +121,7 @@ class MultipleModelFilter {
   /// How well the last measurement was predicted, log ⊕ⱼ w_j ⊗ Λ_j, with the weights before it and the likelihoods of
   /// `innovations()`. With a random mode it is log p(z_k | z_1:k−1), which summed over the steps is the prequential
   /// log-likelihood. With a fuzzy mode it is the maximum, which is no density of z: it only grows with the weights, and
-  /// so is never better than where all is possible. Of value after a step with a measurement, taken or not.
+  /// so is never better than where all is possible. Of value after a step with a measurement, accepted or not.
   double log_evidence() const;
 
   /// The same with weights that sum to one, log ⊕ⱼ (w_j / Σᵢ w_i) ⊗ Λ_j: what settings are compared by, with either
@@ -135,7 +133,7 @@ class MultipleModelFilter {
   /// How far the last measurement lay from all that was thought possible, −2 log ⊕ⱼ w_j ⊗ exp(−d_j²/2) with the weights
   /// before it and each model's squared distance: what a gate compares with a quantile of χ². With one model it is the
   /// NIS; with several it is never more than d_j² − 2 log w_j, so that a measurement that any possible mode expects
-  /// passes. Of value after a step with a measurement, taken or not.
+  /// passes. Of value after a step with a measurement, accepted or not.
   double gate_distance() const;
 
   /// @{
@@ -162,7 +160,7 @@ class MultipleModelFilter {
 
   /// @{
   /// The four steps, with a measurement, if it passes the gate, or without one, into `next`.
-  virtual bool measure(double dt, const Seen& seen, double gate) = 0;
+  virtual bool measure(double dt, const Seen& seen, double limit) = 0;
   virtual void miss(double dt) = 0;
   /// The same by a shorter way; false if there is none, and nothing has changed then.
   virtual bool shortened(double, const Seen*, double) { return false; }
@@ -191,9 +189,9 @@ class MultipleModelFilter {
   detail::Mixture mixture(detail::ConstView receiver, const detail::Correspondence* maps, const Estimates& estimates,
                           detail::Mixture::Part* parts) const;
 
-  /// Whether the measurement of the step being taken passes the gate; its distance, if it is not that of the
-  /// predictors.
-  bool passes(double gate, std::optional<double> distance = std::nullopt);
+  /// Whether the measurement of the step being taken is not beyond the limit of the gate; its distance, if it is not
+  /// that of the predictors.
+  bool passes(double limit, std::optional<double> distance = std::nullopt);
 
   /// What predicted the last measurement, with the logarithms of the weights before it, and which of them is the most
   /// likely: the modes, or of a filter that keeps more all that it keeps.
@@ -208,7 +206,7 @@ class MultipleModelFilter {
   void output_receiver(const State& state, detail::View result) const;
 
   /// The next state becomes the state; its most likely mode is (64).
-  void conclude(bool measured);
+  void conclude(bool accepted);
 
   /// One Gaussian for innovations, as the mode's kind asks.
   static AnyInnovation collapsed(std::span<const AnyInnovation> innovations, const double* weights, std::size_t winner);
@@ -248,7 +246,8 @@ class MultipleModelFilter {
   std::size_t current_ = 0;
   std::size_t steps_ = 0;
   std::optional<double> gate_distance_ = 0.0;  ///< empty if not computed yet
-  bool measured_ = false;
+  bool seen_ = false;                          ///< whether the last step had a measurement
+  bool accepted_ = false;
 };
 
 extern template class MultipleModelFilter<Random>;

@@ -25,7 +25,7 @@ class SecondOrderFilter : public MultipleModelFilter<Kind> {
  private:
   using Filter::next;
 
-  bool measure(double dt, const Seen& seen, double gate) override;
+  bool measure(double dt, const Seen& seen, double limit) override;
   void miss(double dt) override;
   Estimates predicted() const override;
   void branch(double dt);

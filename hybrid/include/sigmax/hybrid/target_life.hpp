@@ -86,7 +86,7 @@ class TargetLife {
 
   StartRule start_;
   TargetRules rules_;
-  std::array<double, max_measurement_size + 1> gates_{};  ///< for so many measured quantities
+  Gate gate_;
   Life now_;
   std::vector<Kept> record_;
   std::vector<Entry> buffer_;  ///< a ring, oldest first, with room for one more than the rules keep
