@@ -26,7 +26,7 @@ namespace {
 using namespace sigmax;
 
 constexpr double T = 0.2;
-constexpr Polar sigma{10.0, 0.002, 0.002};
+constexpr Polar sigma{10.0, radians(0.002), radians(0.002)};
 
 /// A target that circles 12 km away, with errors that repeat.
 std::array<Polar, 100> measurements() {
@@ -35,8 +35,8 @@ std::array<Polar, 100> measurements() {
     const double t = 2.0 * std::numbers::pi * static_cast<double>(k) / static_cast<double>(all.size());
     Polar seen = to_polar({12e3 + 300.0 * std::cos(t), 8e3 + 300.0 * std::sin(t), 1e3});
     seen.range += sigma.range * std::sin(7.0 * t);
-    seen.azimuth += sigma.azimuth * std::cos(11.0 * t);
-    seen.elevation += sigma.elevation * std::sin(13.0 * t);
+    seen.azimuth += std::cos(11.0 * t) * sigma.azimuth;
+    seen.elevation += std::sin(13.0 * t) * sigma.elevation;
     all[k] = seen;
   }
   return all;
@@ -73,17 +73,10 @@ void run(benchmark::State& state, const Filter& filter, const Sensor& sensor, co
   });
 }
 
-const auto polar = [](const Polar& seen) { return PolarSensor<3>::measurement(seen, sigma); };
+const auto polar = [](const Polar& seen) { return PolarSensor<3>{}.measurement(seen, sigma).z; };
 const auto position = [](const Polar& seen) { return to_cartesian(seen, sigma, Conversion::unbiased); };
-const auto doppler = [](const Polar& seen) {
-  Gaussian<4> z{Vector<4>::Zero(), SquareMatrix<4>::Identity()};
-  z.mean.head<3>() = polar(seen).mean;
-  z.covariance.topLeftCorner<3, 3>() = polar(seen).covariance;
-  return z;
-};
-const auto bearing = [](const Polar& seen) {
-  return Gaussian<1>{Vector<1>(seen.azimuth), SquareMatrix<1>(sigma.azimuth * sigma.azimuth)};
-};
+const auto doppler = [](const Polar& seen) { return DopplerSensor<3>{}.measurement(seen, sigma, 0.0, 1.0).z; };
+const auto bearing = [](const Polar& seen) { return BearingSensor{}.measurement(seen.azimuth, sigma.azimuth).z; };
 
 template <Conversion How>
 void Converted(benchmark::State& state) {

@@ -103,12 +103,13 @@ bool crossed_bearings_start(std::span<const TimedBearing> bearings, const View& 
       const double t = (bearing.time - last.time) / span, powers[3] = {1.0, t, 0.5 * t * t};
       double d[2] = {last.origin(0) - bearing.origin(0), last.origin(1) - bearing.origin(1)};
       for (int i = 0; i < n; ++i) d[i % 2] += powers[i / 2] * start.mean[i];
-      const double c = std::cos(bearing.azimuth), s = std::sin(bearing.azimuth), range = std::hypot(d[0], d[1]);
+      const double azimuth = bearing.azimuth.radians(), sigma = bearing.sigma.radians();
+      const double c = std::cos(azimuth), s = std::sin(azimuth), range = std::hypot(d[0], d[1]);
       const bool linear = pass == 0;
       const double slope[2] = {linear ? -s : -d[1] / (range * range), linear ? c : d[0] / (range * range)};
-      const double left = linear ? s * d[0] - c * d[1] : wrapped(bearing.azimuth - std::atan2(d[1], d[0]));
+      const double left = linear ? s * d[0] - c * d[1] : wrapped(azimuth - std::atan2(d[1], d[0]));
       for (int i = 0; i < n; ++i) {
-        const double weighted = slope[i % 2] * powers[i / 2] / bearing.variance;
+        const double weighted = slope[i % 2] * powers[i / 2] / (sigma * sigma);
         gradient[i] += weighted * left;
         for (int k = 0; k <= i; ++k) information[i + k * n] += weighted * slope[k % 2] * powers[k / 2];
       }

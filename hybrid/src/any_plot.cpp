@@ -44,8 +44,9 @@ AnyPlot AnyPlot::doppler(double time, std::span<const double> z, std::span<const
   return filled(Sensor::doppler, time, z, covariance, 3, 4, origin);
 }
 
-AnyPlot AnyPlot::bearing(double time, double azimuth, double variance, const std::array<double, 3>& origin) {
-  return filled(Sensor::bearing, time, {&azimuth, 1}, {&variance, 1}, 1, 1, origin);
+AnyPlot AnyPlot::bearing(double time, Angle azimuth, Angle sigma, const std::array<double, 3>& origin) {
+  const double z = azimuth.radians(), variance = sigma.radians() * sigma.radians();
+  return filled(Sensor::bearing, time, {&z, 1}, {&variance, 1}, 1, 1, origin);
 }
 
 AnyPlot AnyPlot::components(double time, std::span<const int> places, std::span<const double> z,

@@ -103,7 +103,8 @@ class ChosenStart {
     std::vector<TimedBearing> bearings;
     for (const Plot& plot : plots)
       if (const auto* const sensor = plot.seen() ? plot.sensor().as<BearingSensor>() : nullptr)
-        bearings.push_back({plot.time, sensor->origin(), plot.measurement().mean[0], plot.measurement().covariance[0]});
+        bearings.push_back({plot.time, sensor->origin(), radians(plot.measurement().mean[0]),
+                            radians(std::sqrt(plot.measurement().covariance[0]))});
     const bool accelerates = std::ranges::any_of(
         choice_.motions, [](const MotionChoice& motion) { return motion.known().derivatives == 3; });
     double wide_mean[6], wide_covariance[36], narrow_mean[4], narrow_covariance[16];

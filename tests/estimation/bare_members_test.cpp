@@ -18,12 +18,12 @@ void expect_the_same(const Member& member, double T, double q, double q_omega) {
     Polar seen = to_polar(
         {-12e3 + 300.0 * (1.0 - std::cos(turning)), 1e3 - 100.0 * std::min(t, 30.0) - 300.0 * std::sin(turning), 1e3});
     seen.range += 10.0 * std::sin(7.0 * k);
-    seen.azimuth = wrapped(seen.azimuth + 0.002 * std::cos(11.0 * k));
-    seen.elevation += 0.002 * std::sin(13.0 * k);
-    const Gaussian<3> z = PolarSensor<3>::measurement(seen, {10.0, 0.002, 0.002});
+    seen.azimuth = radians(wrapped(seen.azimuth.radians() + 0.002 * std::cos(11.0 * k)));
+    seen.elevation += radians(0.002 * std::sin(13.0 * k));
+    const auto measured = PolarSensor<3>{}.measurement(seen, {10.0, radians(0.002), radians(0.002)});
     predict(member, x, T, x);
-    const auto innovation = update(member, x, z, PolarSensor<3>{}, x);
-    bare.step(z.mean, z.covariance);
+    const auto innovation = update(member, x, measured, x);
+    bare.step(measured.z.mean, measured.z.covariance);
     ASSERT_CLOSE(bare.x, x.mean, 1e-9);
     ASSERT_CLOSE(bare.P, x.covariance, 1e-9);
     ASSERT_CLOSE(bare.log_likelihood, innovation.log_likelihood, 1e-9);

@@ -3,10 +3,10 @@
 namespace converted_measurement_test {
 
 PROPERTY(ConvertedMeasurement, DebiasedInThePlaneIsThePrintedOne) {  // Lerro and Bar-Shalom 1993, (20)–(23)
-  const Polar m{number_between(1.0, 1e3), number_between(-3.2, 3.2), 0.0};
-  const Polar sigma{number_between(0.0, 50.0), number_between(0.0, 0.5), 0.0};
-  const double r = m.range, c = std::cos(m.azimuth), s = std::sin(m.azimuth);
-  const double v = sigma.azimuth * sigma.azimuth, vr = sigma.range * sigma.range;
+  const Polar m{number_between(1.0, 1e3), radians(number_between(-3.2, 3.2))};
+  const Polar sigma{number_between(0.0, 50.0), radians(number_between(0.0, 0.5))};
+  const double r = m.range, c = std::cos(m.azimuth.radians()), s = std::sin(m.azimuth.radians());
+  const double v = sigma.azimuth.radians() * sigma.azimuth.radians(), vr = sigma.range * sigma.range;
   const double cosh2 = std::cosh(2 * v), cosh1 = std::cosh(v), sinh2 = std::sinh(2 * v), sinh1 = std::sinh(v);
   const auto variance = [&](double a, double b) {
     return std::exp(-2 * v) * (r * r * (a * a * (cosh2 - cosh1) + b * b * (sinh2 - sinh1)) +
@@ -22,14 +22,15 @@ PROPERTY(ConvertedMeasurement, DebiasedInThePlaneIsThePrintedOne) {  // Lerro an
 }
 
 PROPERTY(ConvertedMeasurement, UnbiasedInThePlaneIsThePrintedOne) {  // Mo, Song, Zhou, Sun, Bar-Shalom 1998
-  const Polar m{number_between(1.0, 1e3), number_between(-3.2, 3.2), 0.0};
-  const Polar sigma{number_between(0.0, 50.0), number_between(0.0, 0.5), 0.0};
-  const double r = m.range, c = std::cos(m.azimuth), s = std::sin(m.azimuth), vr = sigma.range * sigma.range;
-  const double lambda = std::exp(-sigma.azimuth * sigma.azimuth / 2), k = 1 / (lambda * lambda) - 2;
+  const Polar m{number_between(1.0, 1e3), radians(number_between(-3.2, 3.2))};
+  const Polar sigma{number_between(0.0, 50.0), radians(number_between(0.0, 0.5))};
+  const double r = m.range, c = std::cos(m.azimuth.radians()), s = std::sin(m.azimuth.radians()),
+               vr = sigma.range * sigma.range;
+  const double lambda = std::exp(-sigma.azimuth.radians() * sigma.azimuth.radians() / 2), k = 1 / (lambda * lambda) - 2;
   const double l4 = std::pow(lambda, 4), half = (r * r + vr) / 2;
-  const double R11 = k * r * r * c * c + half * (1 + l4 * std::cos(2 * m.azimuth));
-  const double R22 = k * r * r * s * s + half * (1 - l4 * std::cos(2 * m.azimuth));
-  const double R12 = k * r * r * s * c + half * l4 * std::sin(2 * m.azimuth);
+  const double R11 = k * r * r * c * c + half * (1 + l4 * std::cos(2 * m.azimuth.radians()));
+  const double R22 = k * r * r * s * s + half * (1 - l4 * std::cos(2 * m.azimuth.radians()));
+  const double R12 = k * r * r * s * c + half * l4 * std::sin(2 * m.azimuth.radians());
   const auto found = to_cartesian(m, sigma, Conversion::unbiased);
   require_near(found.mean, Vector<3>(r * c / lambda, r * s / lambda, 0.0), 1e-12);
   require_near(found.covariance.topLeftCorner<2, 2>() / (r * r), SquareMatrix<2>{{R11, R12}, {R12, R22}} / (r * r),
@@ -48,15 +49,16 @@ auto expected(const Polar& about, const Polar& sigma, const Function& function) 
         const auto at = [](int n) { return width * (2.0 * n / steps - 1.0); };
         const double weight = std::exp(-0.5 * (at(i) * at(i) + at(j) * at(j) + at(k) * at(k))) *
                               std::pow(2.0 * width / steps / std::sqrt(2.0 * std::numbers::pi), 3);
-        sum += weight * function(Polar{about.range + sigma.range * at(i), about.azimuth + sigma.azimuth * at(j),
-                                       about.elevation + sigma.elevation * at(k)});
+        sum += weight * function(Polar{about.range + sigma.range * at(i), about.azimuth + at(j) * sigma.azimuth,
+                                       about.elevation + at(k) * sigma.elevation});
       }
   return sum;
 }
 
-const std::array<std::pair<Polar, Polar>, 3> scenes{{{{100.0, 0.7, 0.4}, {5.0, 0.2, 0.1}},
-                                                     {{50.0, -2.5, -1.0}, {1.0, 0.05, 0.4}},
-                                                     {{10.0, 3.1, 1.2}, {1.0, 0.3, 0.3}}}};
+const std::array<std::pair<Polar, Polar>, 3> scenes{
+    {{{100.0, radians(0.7), radians(0.4)}, {5.0, radians(0.2), radians(0.1)}},
+     {{50.0, radians(-2.5), radians(-1.0)}, {1.0, radians(0.05), radians(0.4)}},
+     {{10.0, radians(3.1), radians(1.2)}, {1.0, radians(0.3), radians(0.3)}}}};
 
 TEST(ConvertedMeasurement, TheUnbiasedOneIsUnbiasedAndItsCovarianceIsTheMeanSquareError) {
   for (const auto& [m, sigma] : scenes) {
@@ -76,8 +78,8 @@ TEST(ConvertedMeasurement, TheUnbiasedOneIsUnbiasedAndItsCovarianceIsTheMeanSqua
 
 TEST(ConvertedMeasurement, TheDebiasedOneTakesTheMeanBiasAndTheMeanCovariance) {
   for (const auto& [m, sigma] : scenes) {
-    const double la = std::exp(-sigma.azimuth * sigma.azimuth / 2),
-                 le = std::exp(-sigma.elevation * sigma.elevation / 2);
+    const double la = std::exp(-sigma.azimuth.radians() * sigma.azimuth.radians() / 2),
+                 le = std::exp(-sigma.elevation.radians() * sigma.elevation.radians() / 2);
     const Vector<3> l(la * le, la * le, le);  // E[conversion | truth] = l · truth
     const Vector<3> bias = expected(m, sigma, [&](const Polar& truth) {
       const Vector<3> p = to_cartesian(truth);

@@ -14,7 +14,8 @@ void expect_none(const Filter& filter, const EstimateOf<Filter>& start, const Me
   EXPECT_EQ(allocations_of([&] { prediction_covariance(filter, x, 0.5); }), 0U) << filter.name();
 }
 
-const auto radar = PolarSensor<3>::measurement({1e4, 0.7, 0.1}, {10.0, 0.002, 0.002});
+const auto radar =
+    PolarSensor<3>{}.measurement({1e4, radians(0.7), radians(0.1)}, {10.0, radians(0.002), radians(0.002)}).z;
 
 template <class Moves>
 void expect_none_of_any(const Moves& motion) {

@@ -69,7 +69,7 @@ TEST(MemberConsistency, OfALinearModel) {
 TEST(MemberConsistency, OfLinearMotionsSeenByARadar) {
   const auto start =
       known_to(Vector<6>(12e3, 8e3, 1e3, -100.0, -100.0, 0.0), Vector<6>(400.0, 400.0, 400.0, 100.0, 100.0, 25.0));
-  const auto R = PolarSensor<3>::measurement({}, {10.0, 0.1 * degree, 0.1 * degree}).covariance;
+  const auto R = PolarSensor<3>{}.measurement({}, {10.0, degrees(0.1), degrees(0.1)}).z.covariance;
   expect_consistent(dwna<3>(3.0), PolarSensor<3>{}, start, R);
   expect_consistent(ou_velocity<3>(0.1, 15.0, Vector<3>(-100.0, -100.0, 0.0)), PolarSensor<3>{}, start, R);
 }
@@ -77,7 +77,7 @@ TEST(MemberConsistency, OfLinearMotionsSeenByARadar) {
 TEST(MemberConsistency, OfATurnSeenByARadar) {
   expect_consistent(CoordinatedTurn<2>{1.0, 1e-5}, PolarSensor<2>{},
                     known_to(Vector<5>(12e3, 8e3, -100.0, -100.0, 0.05), Vector<5>(400.0, 400.0, 25.0, 25.0, 1e-4)),
-                    PolarSensor<2>::measurement({}, {10.0, 0.1 * degree, 0.0}).covariance);
+                    PolarSensor<2>{}.measurement({}, {10.0, degrees(0.1)}).z.covariance);
 }
 
 }  // namespace member_consistency_test

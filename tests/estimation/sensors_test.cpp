@@ -8,10 +8,12 @@ const auto motion = dwna<3>(2.0);
 PROPERTY(Sensors, ARadarSeesWhatToPolarSays) {
   const Vector<3> position = 100.0 * generated_matrix<3, 1>(), origin = 100.0 * generated_matrix<3, 1>();
   const Polar seen = to_polar(position - origin);
-  require_near(PolarSensor<3>{origin}.measure(position), Vector<3>(seen.range, seen.azimuth, seen.elevation), 1e-12);
+  require_near(PolarSensor<3>{origin}.measure(position),
+               Vector<3>(seen.range, seen.azimuth.radians(), seen.elevation.radians()), 1e-12);
   const double ground = std::hypot(position(0) - origin(0), position(1) - origin(1));
-  require_near(PolarSensor<2>{origin.head<2>()}.measure(position.head<2>()), Vector<2>(ground, seen.azimuth), 1e-12);
-  require_near(BearingSensor{origin.head<2>()}.measure(position.head<2>())(0), seen.azimuth, 1e-12);
+  require_near(PolarSensor<2>{origin.head<2>()}.measure(position.head<2>()), Vector<2>(ground, seen.azimuth.radians()),
+               1e-12);
+  require_near(BearingSensor{origin.head<2>()}.measure(position.head<2>())(0), seen.azimuth.radians(), 1e-12);
 }
 
 /// Differences over 2h, h small.
@@ -46,10 +48,11 @@ TEST(Sensors, DifferencesOfAzimuthsAreWrappedAndNothingElseIs) {
 }
 
 TEST(Sensors, AMeasurementBringsItsVariances) {
-  const auto z = PolarSensor<3>::measurement({1000.0, 0.1, 0.2}, {10.0, 0.002, 0.003});
+  const Polar seen{1000.0, radians(0.1), radians(0.2)}, sigma{10.0, radians(0.002), radians(0.003)};
+  const auto z = PolarSensor<3>{}.measurement(seen, sigma).z;
   EXPECT_EQ(z.mean, (Vector<3>(1000.0, 0.1, 0.2)));
   EXPECT_CLOSE(z.covariance, (SquareMatrix<3>{{100, 0, 0}, {0, 4e-6, 0}, {0, 0, 9e-6}}), 1e-18);
-  const auto flat = PolarSensor<2>::measurement({1000.0, 0.1, 0.2}, {10.0, 0.002, 0.003});
+  const auto flat = PolarSensor<2>{}.measurement(seen, sigma).z;
   EXPECT_EQ(flat.mean, (Vector<2>(1000.0, 0.1)));
   EXPECT_EQ(flat.covariance, (z.covariance.topLeftCorner<2, 2>()));
 }
@@ -115,17 +118,17 @@ TEST(Sensors, ComponentsTellAPositionWhereAllAxesLead) {
 
 TEST(Sensors, ARadarTellsThePositionAsTheConversionDoes) {
   const Vector<3> origin(10.0, -20.0, 5.0);
-  const Polar seen{1000.0, 0.4, 0.2}, sigma{10.0, 0.002, 0.003};
+  const Polar seen{1000.0, radians(0.4), radians(0.2)}, sigma{10.0, radians(0.002), radians(0.003)};
   const Gaussian<3> expected = to_cartesian(seen, sigma, Conversion::unbiased);
-  const auto found = PolarSensor<3>{origin}.position(PolarSensor<3>::measurement(seen, sigma));
+  const auto found = PolarSensor<3>{origin}.position(PolarSensor<3>{}.measurement(seen, sigma).z);
   EXPECT_CLOSE(found.mean, expected.mean + origin, 1e-15);
   EXPECT_CLOSE(found.covariance, expected.covariance, 1e-15);
   EXPECT_EQ(PolarSensor<3>{origin}.origin(), origin);
   EXPECT_EQ(BearingSensor{origin.head<2>()}.origin(), origin.head<2>());
-  const Gaussian<3> flat = to_cartesian({1000.0, 0.4, 0.0}, {10.0, 0.002, 0.0}, Conversion::unbiased);
-  const auto in_plane = PolarSensor<2>{}.position(PolarSensor<2>::measurement(seen, sigma));
-  EXPECT_CLOSE(in_plane.mean, flat.mean.head<2>(), 1e-15);
-  EXPECT_CLOSE(in_plane.covariance, (flat.covariance.topLeftCorner<2, 2>()), 1e-15);
+  const Gaussian<2> flat = to_cartesian<2>(seen, sigma, Conversion::unbiased);
+  const auto in_plane = PolarSensor<2>{}.position(PolarSensor<2>{}.measurement(seen, sigma).z);
+  EXPECT_CLOSE(in_plane.mean, flat.mean, 1e-15);
+  EXPECT_CLOSE(in_plane.covariance, flat.covariance, 1e-15);
 }
 
 /// Knows that its range is ten too short, and its slope by heart.

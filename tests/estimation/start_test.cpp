@@ -44,7 +44,7 @@ struct Crossed {
     for (int k = 0; k < count; ++k) {
       const Vector<2> at = place(k);
       const double t = 0.7 * (k - count + 1) - 0.1 * ((count - 1 - k) % 3), sigma = (1 + k % 2) * 0.002;
-      bearings.push_back({50.0 + t, at, azimuth(motion, t, at), sigma * sigma});
+      bearings.push_back({50.0 + t, at, radians(azimuth(motion, t, at)), radians(sigma)});
     }
   }
 
@@ -71,7 +71,7 @@ void require_most_likely(int count) {
   RC_ASSERT(found.has_value());
   for (int i = 0; i < n; ++i) RC_ASSERT(std::abs(found->mean(i) - motion[static_cast<std::size_t>(i)]) <= 1e-3);
 
-  for (auto& bearing : crossed.bearings) bearing.azimuth += std::sqrt(bearing.variance) * number_between(-1.0, 1.0);
+  for (auto& bearing : crossed.bearings) bearing.azimuth += number_between(-1.0, 1.0) * bearing.sigma;
   const auto start = crossed_bearings_start<Derivatives>(crossed.bearings);
   RC_ASSERT(start.has_value());
   Eigen::MatrixXd information = Eigen::MatrixXd::Zero(n, n);  // by differences of the azimuths
@@ -86,8 +86,9 @@ void require_most_likely(int count) {
     Eigen::VectorXd h(n);
     for (int i = 0; i < n; ++i)
       h(i) = (seen(i, 1e-3 * scale(i)) - seen(i, -1e-3 * scale(i))) / 2e-3;  // to a standard deviation
-    information += h * h.transpose() / bearing.variance;
-    slope += h * (bearing.azimuth - seen(-1, 0.0)) / bearing.variance;
+    const double variance = std::pow(bearing.sigma.radians(), 2);
+    information += h * h.transpose() / variance;
+    slope += h * (bearing.azimuth.radians() - seen(-1, 0.0)) / variance;
   }
   RC_ASSERT(slope.norm() <= 1e-5);  // no motion is more likely
   const Eigen::MatrixXd covariance = information.inverse();
@@ -113,9 +114,10 @@ TEST(Start, BearingsWaitUntilTheyTellWhereTheTargetIs) {
   EXPECT_FALSE(starts(16, [](int k) { return Vector<2>(k % 2 * 20.0, 0.0); })) << "nearly parallel";
   EXPECT_TRUE(starts(16, [](int k) { return Vector<2>(k % 2 * 2000.0, 0.0); }));
   std::vector<TimedBearing> behind;  // they cross below, and look up
-  for (int k = 0; k < 8; ++k) behind.push_back({1.0 * k, two_stations(k), (k % 2 == 0 ? 120.0 : 60.0) * degree, 1e-6});
+  for (int k = 0; k < 8; ++k)
+    behind.push_back({1.0 * k, two_stations(k), degrees(k % 2 == 0 ? 120.0 : 60.0), radians(1e-3)});
   EXPECT_FALSE(crossed_bearings_start<2>(behind).has_value());
-  for (auto& bearing : behind) bearing.azimuth += 180.0 * degree;
+  for (auto& bearing : behind) bearing.azimuth += degrees(180.0);
   EXPECT_TRUE(crossed_bearings_start<2>(behind).has_value());
   for (auto& bearing : behind) bearing.time = 3.0;
   EXPECT_FALSE(crossed_bearings_start<2>(behind).has_value()) << "all at one time";

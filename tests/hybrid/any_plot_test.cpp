@@ -25,11 +25,11 @@ TEST(AnyPlot, OfARadarAndOfABearingKnowWhereTheSensorStands) {
   EXPECT_EQ(doppler.sensor, AnyPlot::Sensor::doppler);
   EXPECT_EQ(doppler.size, 3);
   EXPECT_EQ(doppler.origin, radar);
-  const AnyPlot bearing = AnyPlot::bearing(1.0, 0.1, 2.0, radar);
+  const AnyPlot bearing = AnyPlot::bearing(1.0, radians(0.1), radians(0.5), radar);
   EXPECT_EQ(bearing.sensor, AnyPlot::Sensor::bearing);
   EXPECT_EQ(bearing.size, 1);
   EXPECT_EQ(bearing.z[0], 0.1);
-  EXPECT_EQ(bearing.variance(0), 2.0);
+  EXPECT_EQ(bearing.variance(0), 0.25);
   EXPECT_EQ(bearing.origin, radar);
   EXPECT_EQ(AnyPlot::polar(1.0, Numbers{100.0, 0.1}, Numbers{1.0, 2.0}).origin, (std::array<double, 3>{}));
 }

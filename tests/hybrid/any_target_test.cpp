@@ -118,7 +118,7 @@ TEST(AnyTarget, TakesWhatSeveralSensorsSee) {
   const std::array doppler{5500.9, 0.0, 0.01818, 100.0};
   EXPECT_EQ(target.take(AnyPlot::doppler(5.0, doppler, std::array{1.0, 1e-6, 1e-6, 1.0})), Verdict::accepted)
       << "two sensors may see at one time";
-  AnyPlot bearing = AnyPlot::bearing(6.0, 0.0, 1e-6);
+  AnyPlot bearing = AnyPlot::bearing(6.0, Angle{}, radians(1e-3));
   EXPECT_EQ(target.take(bearing), Verdict::accepted);
   bearing.size = 2;
   EXPECT_INVALID(("2 measured quantities", "1"), target.take(bearing));
@@ -129,7 +129,7 @@ TEST(AnyTarget, StartsFromBearingsThatCross) {
   const std::array<std::array<double, 3>, 2> stations{{{0.0, 0.0, 0.0}, {5000.0, 0.0, 0.0}}};
   const auto seen = [&](int k, std::size_t by) {
     const double t = k, x = 1000.0 + 40.0 * t, y = 4000.0 - 10.0 * t;
-    return AnyPlot::bearing(t, std::atan2(y, x - stations[by][0]), 1e-6, stations[by]);
+    return AnyPlot::bearing(t, radians(std::atan2(y, x - stations[by][0])), radians(1e-3), stations[by]);
   };
   for (const bool accelerates : {false, true}) {
     TargetChoice two = choice(true, Scheme::interacting, 2);

@@ -55,9 +55,9 @@ TEST(ExtendingWalk, SensorsThatTakeTurns) {
   Gaussian<6> start{Vector<6>(5000.0, 500.0, 0.0, 50.0, 0.0, 0.0), 100.0 * SquareMatrix<6>::Identity()};
   InteractingMultipleModel filter{std::tuple{dwna<2>(1.0), dwpa<2>(1.0)},
                                   Relation{mode, mode, {{0.95, 0.05}, {0.05, 0.95}}}, start};
-  filter.step(1.0, PolarSensor<2>::measurement({5030.2, 0.1096, 0.0}, {10.0, 0.002, 0.0}), PolarSensor<2>{});
-  filter.step(0.5, PolarSensor<2>::measurement({4140.1, 0.1393, 0.0}, {10.0, 0.002, 0.0}), PolarSensor<2>{harbour});
-  filter.step(0.0, {Vector<1>(0.1145), SquareMatrix<1>(1e-6)}, BearingSensor{});
+  filter.step(1.0, PolarSensor<2>{}.measurement({5030.2, degrees(6.28)}, {10.0, degrees(0.1)}));
+  filter.step(0.5, PolarSensor<2>{harbour}.measurement({4140.1, degrees(7.98)}, {10.0, degrees(0.1)}));
+  filter.step(0.0, BearingSensor{}.measurement(degrees(6.56), degrees(0.06)));
   filter.step(0.5, {Vector<1>(50.0), SquareMatrix<1>(1.0)}, Speedometer{});
   const auto found = filter.estimate();
   EXPECT_NEAR(found.mean(3), 50.0, 1.0);

@@ -8,9 +8,10 @@ TEST(ModelsWalk, AStep) {
   const Unscented filter{CoordinatedTurn<3>{1.0, 1e-4}};
   Gaussian<7> x{Vector<7>(8e3, 6e3, 1e3, -50.0, 80.0, 0.0, 0.05), 100.0 * SquareMatrix<7>::Identity()};
   x.covariance(6, 6) = 0.01;
-  const auto z = PolarSensor<3>::measurement({10.05e3, 0.65, 0.1}, {10.0, 0.002, 0.002});
+  const auto z =
+      PolarSensor<3>{}.measurement({10.05e3, degrees(37.2), degrees(5.7)}, {10.0, degrees(0.1), degrees(0.1)});
   predict(filter, x, 0.2, x);
-  const auto innovation = update(filter, x, z, PolarSensor<3>{}, x);
+  const auto innovation = update(filter, x, z, x);
   EXPECT_TRUE(std::isfinite(innovation.log_likelihood));
   EXPECT_EQ(innovation.residual.size(), 3);
 }
@@ -77,7 +78,8 @@ TEST(ModelsWalk, ASensorOfOnesOwn) {
 }
 
 TEST(ModelsWalk, Conversion) {
-  const Gaussian<3> z = to_cartesian({145e3, 0.588, 0.138}, {100.0, 0.05, 0.05}, Conversion::unbiased);
+  const Polar seen{145e3, degrees(33.7), degrees(7.9)}, sigma{100.0, degrees(2.9), degrees(2.9)};
+  const Gaussian<3> z = to_cartesian(seen, sigma, Conversion::unbiased);  // to_cartesian<2> in the plane
   EXPECT_GT(z.mean.norm(), 145e3);
 }
 

@@ -27,10 +27,11 @@ Flown fly(const Scenario& scenario, std::mt19937_64& generator) {
   for (int k = 1; k <= scenario.samples; ++k) {
     Polar seen = to_polar(x);
     seen.range += scenario.sigma_r * normal(generator);
-    seen.azimuth += scenario.sigma_a * normal(generator);
-    seen.elevation += scenario.sigma_a * normal(generator);
+    seen.azimuth += normal(generator) * radians(scenario.sigma_a);
+    seen.elevation += normal(generator) * radians(scenario.sigma_a);
     flight.truth.push_back(x);
-    flight.measured.push_back(to_cartesian(seen, {scenario.sigma_r, scenario.sigma_a, scenario.sigma_a}));
+    flight.measured.push_back(
+        to_cartesian(seen, {scenario.sigma_r, radians(scenario.sigma_a), radians(scenario.sigma_a)}));
     Vector<3> a = Vector<3>::Zero();
     if (k >= scenario.first && k <= scenario.last) a = Vector<3>{-30.0, -50.0, 0.0};
     for (double& component : a) component += 3.0 * normal(generator);

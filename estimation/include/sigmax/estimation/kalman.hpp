@@ -77,6 +77,13 @@ Innovation<Model::axes> update(const Model& model, const EstimateOf<Model>& prio
   return update(model, prior, measurement, PositionSensor<Model::axes>{}, posterior);
 }
 
+/// Update by what says by which sensor it was measured.
+template <StateModel Model, SensorOf<Model> Sensor>
+InnovationOf<Sensor> update(const Model& model, const EstimateOf<Model>& prior, const MeasuredBy<Sensor>& measured,
+                            EstimateOf<Model>& posterior) {
+  return update(model, prior, measured.z, measured.sensor, posterior);
+}
+
 /// @{
 /// The same verbs, returning the estimate.
 template <FilterModel Model>
@@ -96,6 +103,10 @@ template <StateModel Model>
   requires(axes_of<Model> > 0)
 EstimateOf<Model> update(const Model& model, const EstimateOf<Model>& prior, const Gaussian<Model::axes>& measurement) {
   return update(model, prior, measurement, PositionSensor<Model::axes>{});
+}
+template <StateModel Model, SensorOf<Model> Sensor>
+EstimateOf<Model> update(const Model& model, const EstimateOf<Model>& prior, const MeasuredBy<Sensor>& measured) {
+  return update(model, prior, measured.z, measured.sensor);
 }
 /// @}
 

@@ -1,30 +1,45 @@
 #pragma once
 
+#include <array>
 #include <cmath>
 
+#include <sigmax/estimation/angle.hpp>
 #include <sigmax/estimation/gaussian.hpp>
 #include <sigmax/estimation/radar_numbers.hpp>
 
 namespace sigmax {
 
-/// A target as a radar sees it: range in m, azimuth counter-clockwise from x and elevation from the x–y plane in rad.
-/// The same three numbers serve as standard deviations.
+/// A target as a radar sees it: range in m, azimuth counter-clockwise from x and elevation from the x–y plane. The same
+/// three serve as standard deviations.
+///
+///     const Polar seen{10.05e3, degrees(37.2), radians(0.1)}, sigma{10.0, degrees(0.1), degrees(0.1)};
 struct Polar {
-  double range;
-  double azimuth;
-  double elevation;
+  double range = 0.0;
+  Angle azimuth{};
+  Angle elevation{};
 };
+
+namespace detail {
+inline std::array<double, 3> numbers_of(const Polar& seen) {
+  return {seen.range, seen.azimuth.radians(), seen.elevation.radians()};
+}
+}  // namespace detail
 
 /// Where a radar at the origin sees a position.
 inline Polar to_polar(const Vector<3>& position) {
   const double ground = std::hypot(position.x(), position.y());
-  return {std::hypot(ground, position.z()), std::atan2(position.y(), position.x()), std::atan2(position.z(), ground)};
+  return {std::hypot(ground, position.z()), radians(std::atan2(position.y(), position.x())),
+          radians(std::atan2(position.z(), ground))};
 }
 
-/// The position that a radar measurement stands for.
-inline Vector<3> to_cartesian(const Polar& seen) {
-  const double ground = seen.range * std::cos(seen.elevation);
-  return {ground * std::cos(seen.azimuth), ground * std::sin(seen.azimuth), seen.range * std::sin(seen.elevation)};
+/// The position that a radar measurement stands for; in the plane, as of all that is below, the elevation is ignored.
+template <int Axes = 3>
+Vector<Axes> to_cartesian(const Polar& seen) {
+  static_assert(Axes == 2 || Axes == 3, "in the plane or in space");
+  const double azimuth = seen.azimuth.radians(), elevation = Axes == 3 ? seen.elevation.radians() : 0.0;
+  const double ground = seen.range * std::cos(elevation);
+  return Vector<3>(ground * std::cos(azimuth), ground * std::sin(azimuth), seen.range * std::sin(elevation))
+      .template head<Axes>();
 }
 
 /// A radar measurement as a Cartesian one with its covariance; `sigma` are standard deviations of Gaussian errors. The
@@ -37,18 +52,19 @@ inline Vector<3> to_cartesian(const Polar& seen) {
 ///
 /// In the plane these are the published formulas. Throws std::invalid_argument unless range > 0 and no deviation is
 /// negative.
-inline Gaussian<3> to_cartesian(const Polar& measured, const Polar& sigma,
-                                Conversion conversion = Conversion::standard) {
-  const double z[3] = {measured.range, measured.azimuth, measured.elevation};
-  const double deviations[3] = {sigma.range, sigma.azimuth, sigma.elevation};
+template <int Axes = 3>
+Gaussian<Axes> to_cartesian(const Polar& measured, const Polar& sigma, Conversion conversion = Conversion::standard) {
+  static_assert(Axes == 2 || Axes == 3, "in the plane or in space");
+  auto z = detail::numbers_of(measured), deviations = detail::numbers_of(sigma);
+  if (Axes == 2) z[2] = deviations[2] = 0.0;
   Gaussian<3> result;
-  detail::convert(z, deviations, conversion, result.mean.data(), result.covariance.data());
-  return result;
+  detail::convert(z.data(), deviations.data(), conversion, result.mean.data(), result.covariance.data());
+  return {result.mean.template head<Axes>(), result.covariance.template topLeftCorner<Axes, Axes>()};
 }
 
 /// r σ_α² / σ_r: the standard conversion is valid below 0.4 (Lerro and Bar-Shalom 1993).
 inline double conversion_validity(double range, const Polar& sigma) {
-  return range * sigma.azimuth * sigma.azimuth / sigma.range;
+  return range * sigma.azimuth.radians() * sigma.azimuth.radians() / sigma.range;
 }
 
 }  // namespace sigmax

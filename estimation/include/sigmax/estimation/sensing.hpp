@@ -105,6 +105,19 @@ concept Tells = requires(const Sensor& sensor, const Asked&... asked) {
 template <Sensing Sensor>
 using MeasurementOf = Gaussian<Sensor::measurement_size, detail::max_measurement_size_of<Sensor>>;
 
+/// What a sensor measured, with its R, and by which sensor: what `update` and `step` take.
+///
+///     const auto seen = PolarSensor<2>{radar}.measurement({5e3, degrees(40)}, {10.0, degrees(0.1)});
+///     filter.step(1.0, seen);
+///     filter.step(0.5, MeasuredBy{Gaussian<1>{…}, Speedometer{}});   // of a sensor of your own
+template <Sensing Sensor>
+struct MeasuredBy {
+  MeasurementOf<Sensor> z;
+  Sensor sensor;
+};
+template <Sensing Sensor>
+MeasuredBy(MeasurementOf<Sensor>, Sensor) -> MeasuredBy<Sensor>;
+
 /// A vector of measured quantities.
 template <Sensing Sensor>
 using MeasuredOf = Vector<Sensor::measurement_size, detail::max_measurement_size_of<Sensor>>;

@@ -138,13 +138,10 @@ class PolarSensor : public detail::RadarSensor<PolarSensor<Axes>, Axes, Axes, Ax
  public:
   using detail::RadarSensor<PolarSensor, Axes, Axes, Axes>::RadarSensor;
 
-  /// What a radar with these standard deviations measured; with two axes the elevation is ignored.
-  static Gaussian<Axes> measurement(const Polar& measured, const Polar& sigma) {
-    const double z[3] = {measured.range, measured.azimuth, measured.elevation};
-    const double deviations[3] = {sigma.range, sigma.azimuth, sigma.elevation};
-    Gaussian<Axes> result{Vector<Axes>(z), SquareMatrix<Axes>::Zero()};
-    for (int i = 0; i < Axes; ++i) result.covariance(i, i) = deviations[i] * deviations[i];
-    return result;
+  /// What this radar measured, with these standard deviations; with two axes the elevation is ignored.
+  MeasuredBy<PolarSensor> measurement(const Polar& measured, const Polar& sigma) const {
+    const auto z = detail::numbers_of(measured), deviations = detail::numbers_of(sigma);
+    return {{Vector<Axes>(z.data()), Vector<Axes>(deviations.data()).array().square().matrix().asDiagonal()}, *this};
   }
 
   void compute(const double* position, int, double* z, double* H) const {
@@ -172,6 +169,11 @@ class BearingSensor : public detail::ComputedSensor<BearingSensor, 1, 2> {
 
   explicit BearingSensor(const Vector<2>& origin = Vector<2>::Zero()) : origin_(detail::numbers_of(origin)) {}
   Vector<2> origin() const { return Vector<2>(origin_.data()); }
+
+  /// What this sensor measured, with this standard deviation.
+  MeasuredBy<BearingSensor> measurement(Angle azimuth, Angle sigma) const {
+    return {{Vector<1>(azimuth.radians()), SquareMatrix<1>(sigma.radians() * sigma.radians())}, *this};
+  }
 
   Vector<1> measurement_difference(const Vector<1>& z, const Vector<1>& predicted) const {
     return Vector<1>(wrapped(z(0) - predicted(0)));

@@ -3,16 +3,17 @@
 #include <optional>
 #include <span>
 
+#include <sigmax/estimation/angle.hpp>
 #include <sigmax/estimation/view.hpp>
 
 namespace sigmax {
 
-/// The azimuth of a target at a time, in s, as it was seen from a place: counter-clockwise from x, in rad.
+/// The azimuth of a target at a time, in s, as it was seen from a place: counter-clockwise from x.
 struct TimedBearing {
   double time;
   Vector<2> origin;
-  double azimuth;
-  double variance;
+  Angle azimuth;
+  Angle sigma;  ///< its standard deviation
 };
 
 namespace detail {

@@ -5,6 +5,8 @@
 #include <optional>
 #include <span>
 
+#include <sigmax/estimation/angle.hpp>
+
 namespace sigmax {
 
 /// What a target is told at one time, in plain numbers. The functions fill one; the tag may be set afterwards:
@@ -49,8 +51,8 @@ struct AnyPlot {
   static AnyPlot doppler(double time, std::span<const double> z, std::span<const double> covariance,
                          const std::array<double, 3>& origin = {});
 
-  /// The azimuth alone, in rad.
-  static AnyPlot bearing(double time, double azimuth, double variance, const std::array<double, 3>& origin = {});
+  /// The azimuth alone, with its standard deviation.
+  static AnyPlot bearing(double time, Angle azimuth, Angle sigma, const std::array<double, 3>& origin = {});
 
   /// Some components of the state by themselves, as the height and a velocity: those at these places, 1 to 6.
   static AnyPlot components(double time, std::span<const int> places, std::span<const double> z,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <concepts>
 #include <cstddef>
 #include <tuple>
 #include <type_traits>
@@ -47,7 +48,11 @@ namespace detail {
 
 template <class... Model>
 std::vector<AnyModel> bank_of(const std::tuple<Model...>& models) {
-  return std::apply([](const Model&... model) { return std::vector<AnyModel>{AnyModel(model)...}; }, models);
+  constexpr bool all_filter = (std::constructible_from<AnyModel, const Model&> && ...);
+  static_assert(all_filter,
+                "a model of a bank is a linear motion, or Extended{motion}, Unscented{motion}, Cubature{motion}");
+  if constexpr (all_filter)
+    return std::apply([](const Model&... model) { return std::vector<AnyModel>{AnyModel(model)...}; }, models);
 }
 template <class Model>
 std::vector<AnyModel> bank_of(const std::vector<Model>& models) {

@@ -60,6 +60,12 @@ class BankFilter : public Filter {
     Filter::step(dt, &seen, gate);
   }
 
+  /// The same with what says by which sensor it was measured.
+  template <SensorOfBank<Models> Sensor>
+  void step(double dt, const MeasuredBy<Sensor>& measured, const Gate& gate = {}) {
+    step(dt, measured.z, measured.sensor, gate);
+  }
+
   /// The same with a measurement of the position, which leads the state of every model.
   void step(double dt, const Measurement& z, const Gate& gate = {}) requires(axes != 0) {
     const Seen seen = seen_at(z);
@@ -76,6 +82,10 @@ class BankFilter : public Filter {
   RecordedStep<kind> recorded(double dt, const MeasurementOf<Sensor>& z, const Sensor& sensor, const Gate& = {}) const {
     const Seen seen{detail::view(z), detail::sensor_of_models<Models>(sensor)};
     return Filter::recorded(dt, &seen);
+  }
+  template <Sensing Sensor>
+  RecordedStep<kind> recorded(double dt, const MeasuredBy<Sensor>& measured, const Gate& = {}) const {
+    return recorded(dt, measured.z, measured.sensor);
   }
   RecordedStep<kind> recorded(double dt, const Measurement& z, const Gate& = {}) const requires(axes != 0) {
     const Seen seen = seen_at(z);

@@ -25,6 +25,10 @@ class Plot {
   Plot(double t, const MeasurementOf<Sensor>& z, const Sensor& sensor, std::size_t number = 0)
       : Plot(t, detail::view(z), sensor, number) {}
 
+  template <Sensing Sensor>
+  Plot(double t, const MeasuredBy<Sensor>& measured, std::size_t number = 0)
+      : Plot(t, measured.z, measured.sensor, number) {}
+
   /// A position along as many axes as z has.
   template <int N, int MaxN>
     requires(MaxN <= 3)

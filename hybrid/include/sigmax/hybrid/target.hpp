@@ -56,11 +56,15 @@ class Target {
   }
 
   /// @{
-  /// The same without `stepped`; a position measured; and none.
+  /// The same without `stepped`; what a sensor measured; a position; and none.
   Verdict take(const Plot& plot) {
     return take(plot, [](const Plot&, bool) {});
   }
   Verdict take(double time, const Measurement& z) requires(Filter::axes != 0) { return take(Plot(time, z)); }
+  template <Sensing Sensor>
+  Verdict take(double time, const MeasuredBy<Sensor>& measured) {
+    return take(Plot(time, measured));
+  }
   Verdict take(double time) { return take(Plot(time)); }
   /// @}
 
