@@ -1,0 +1,22 @@
+# cmake -DCOMPILER=… "-DFOLDERS=…" -P check.cmake: case 0 of misuse.cpp compiles, no other does, and the compiler says in at
+# most 60 lines what the comment of the case matches.
+foreach(folder ${FOLDERS})
+  list(APPEND options -isystem ${folder})
+endforeach()
+set(source "${CMAKE_CURRENT_LIST_DIR}/misuse.cpp")
+file(STRINGS "${source}" cases REGEX "CASE == ")
+list(INSERT cases 0 "CASE == 0")
+foreach(line ${cases})
+  string(REGEX MATCH "CASE == ([0-9]+)( *// (.*))?" _ "${line}")
+  set(case ${CMAKE_MATCH_1})
+  set(words "${CMAKE_MATCH_3}")
+  execute_process(COMMAND ${COMPILER} -std=c++20 -fsyntax-only ${options} -DCASE=${case} "${source}"
+                  RESULT_VARIABLE result ERROR_VARIABLE said)
+  string(REGEX MATCHALL "\n" lines "${said}")
+  list(LENGTH lines length)
+  if(case EQUAL 0 AND result EQUAL 0)
+    continue()
+  elseif(case EQUAL 0 OR result EQUAL 0 OR NOT said MATCHES "${words}" OR length GREATER 60)
+    message(SEND_ERROR "case ${case} of ${source}: expected \"${words}\" in at most 60 lines, found ${length}:\n${said}")
+  endif()
+endforeach()
