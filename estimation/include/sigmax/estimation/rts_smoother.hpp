@@ -28,7 +28,8 @@ void smooth_step(const Model& model, const EstimateOf<Model>& filtered, double d
                       detail::sized_view(result, filtered.size()));
 }
 
-/// The smoothed estimates of a whole interval, one for each filtered one; the last is itself.
+/// The smoothed estimates of a whole interval, one for each filtered one; the last is itself. Where a start is far less
+/// sure than the measurements, use a multiple-model filter of the one model: it smooths without differences.
 ///
 ///     std::vector<FilteredStep<EstimateOf<Model>>> record;   // grows with the interval
 ///     … predict, update, record.push_back({dt, estimate}); …
