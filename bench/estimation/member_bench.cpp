@@ -110,8 +110,8 @@ struct Undifferentiated : CoordinatedTurn<3> {
 constexpr double q = 9.0, q_omega = 0.01;
 const auto linear = dwna<3>(3.0);
 const auto accelerated = dwpa<3>(1.0);
-const CoordinatedTurn<3> turn{q, q_omega};
-const Undifferentiated undifferentiated{q, q_omega};
+const CoordinatedTurn<3> turn{std::sqrt(q), std::sqrt(q_omega)};
+const Undifferentiated undifferentiated{std::sqrt(q), std::sqrt(q_omega)};
 
 template <template <class> class Filter, const auto& motion, class Sensor = PolarSensor<3>, const auto& convert = polar>
 void Step(benchmark::State& state) {

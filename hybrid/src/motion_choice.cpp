@@ -27,17 +27,14 @@ constexpr std::array<KnownParameter, 4> parameters{{
      [](double value) { return value >= 0.0; }, "numbers that are not negative, in °/s"},
 }};
 
-constexpr double square(double value) { return value * value; }
 constexpr double degree = std::numbers::pi / 180.0;
 
 /// The motions that can be chosen by name, in the order of the documentation: a row here is all that a new one needs.
 constexpr std::array motion_rows{
     MotionRow::of("dwna", no_manoeuvre, []<int A>(const MotionChoice& c) { return dwna<A>(c[sigma_w]); }, {sigma_w}),
     MotionRow::of("dwpa", manoeuvre, []<int A>(const MotionChoice& c) { return dwpa<A>(c[sigma_w]); }, {sigma_w}),
-    MotionRow::of("cwna", no_manoeuvre, []<int A>(const MotionChoice& c) { return cwna<A>(square(c[sigma_w])); },
-                  {sigma_w}),
-    MotionRow::of("cwpa", manoeuvre, []<int A>(const MotionChoice& c) { return cwpa<A>(square(c[sigma_w])); },
-                  {sigma_w}),
+    MotionRow::of("cwna", no_manoeuvre, []<int A>(const MotionChoice& c) { return cwna<A>(c[sigma_w]); }, {sigma_w}),
+    MotionRow::of("cwpa", manoeuvre, []<int A>(const MotionChoice& c) { return cwpa<A>(c[sigma_w]); }, {sigma_w}),
     MotionRow::of("singer", manoeuvre, []<int A>(const MotionChoice& c) { return singer<A>(1.0 / c[tau], c[sigma_w]); },
                   {sigma_w, tau}),
     MotionRow::of("ou_position", no_manoeuvre,
@@ -48,12 +45,12 @@ constexpr std::array motion_rows{
                   {sigma_w, tau}),
     MotionRow::of<2>("known_turn", manoeuvre,
                      []<int A>(const MotionChoice& c) {
-                       return KnownTurn<A>{c[turn_rate] * degree, square(c[sigma_w])};
+                       return KnownTurn<A>{c[turn_rate] * degree, c[sigma_w]};
                      },
                      {sigma_w, turn_rate}),
     MotionRow::of<2>("ct", manoeuvre,
                      []<int A>(const MotionChoice& c) {
-                       return CoordinatedTurn<A>{square(c[sigma_w]), square(c[turn_drift] * degree)};
+                       return CoordinatedTurn<A>{c[sigma_w], c[turn_drift] * degree};
                      },
                      {sigma_w, turn_drift})};
 

@@ -157,7 +157,7 @@ TEST(HimmDemoRadar, InItsOwnSpaceEveryModelOfAFilterSeesIt) {
                                              "transition_probability=[[0.9,0.1],[0.2,0.8]]"});
   ASSERT_EQ(found.size(), rows.size() - 3);
   const PolarSensor<2> radar{Vector<2>(radar_at.head<2>())};
-  const std::tuple models{Unscented{dwna<2>(2.0)}, Unscented{CoordinatedTurn<2>(0.25, 0.09 * degree * degree)}};
+  const std::tuple models{Unscented{dwna<2>(2.0)}, Unscented{CoordinatedTurn<2>(0.5, 0.3 * degree)}};
   const auto straight = two_point_start<2>({rows[1].time, converted<2>(rows[1], Conversion::unbiased)},
                                            {rows[2].time, converted<2>(rows[2], Conversion::unbiased)});
   Gaussian<5> turning{Vector<5>::Zero(), SquareMatrix<5>::Zero()};

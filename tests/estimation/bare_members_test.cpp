@@ -32,7 +32,7 @@ void expect_the_same(const Member& member, double T, double q, double q_omega) {
 
 TEST(BareMembers, AreTheLibrarysMembers) {
   constexpr double T = 0.2, q = 9.0, q_omega = 0.01;
-  const CoordinatedTurn<3> turn(q, q_omega);
+  const CoordinatedTurn<3> turn(std::sqrt(q), std::sqrt(q_omega));
   expect_the_same<bench::BareExtended>(Extended{turn}, T, q, q_omega);
   expect_the_same<bench::BareUnscented>(Unscented{turn}, T, q, q_omega);
   expect_the_same<bench::BareCubature>(Cubature{turn}, T, q, q_omega);

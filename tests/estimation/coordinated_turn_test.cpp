@@ -56,7 +56,7 @@ TEST(CoordinatedTurn, ItsJacobianIsThePrintedOneAndDoesNotCancel) {
 TEST(CoordinatedTurn, TheNoiseIsWhiteAccelerationAndAWienerRate) {
   SquareMatrix<7> Q = SquareMatrix<7>::Zero();
   Q.topLeftCorner<6, 6>() = cwna<3>(3.0).process_covariance(2.0);
-  Q(6, 6) = 1.0;
+  Q(6, 6) = 0.5;
   EXPECT_EQ((CoordinatedTurn<3>{3.0, 0.5}.process_covariance(2.0)), Q);
 }
 

@@ -75,7 +75,7 @@ TEST(MemberConsistency, OfLinearMotionsSeenByARadar) {
 }
 
 TEST(MemberConsistency, OfATurnSeenByARadar) {
-  expect_consistent(CoordinatedTurn<2>{1.0, 1e-5}, PolarSensor<2>{},
+  expect_consistent(CoordinatedTurn<2>{1.0, std::sqrt(1e-5)}, PolarSensor<2>{},
                     known_to(Vector<5>(12e3, 8e3, -100.0, -100.0, 0.05), Vector<5>(400.0, 400.0, 25.0, 25.0, 1e-4)),
                     PolarSensor<2>{}.measurement({}, {10.0, degrees(0.1)}).z.covariance);
 }

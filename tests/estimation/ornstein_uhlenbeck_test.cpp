@@ -26,10 +26,11 @@ PROPERTY(OrnsteinUhlenbeck, StepsAddUpForAnyRate) {
 PROPERTY(OrnsteinUhlenbeck, ASlowOneIsAWienerProcess) {
   const double theta = 1e-14, q = number_between(0.1, 5.0), dt = number_between(0.1, 3.0);
   const double sigma = std::sqrt(0.5 * q / theta);
-  require_near(singer<2>(theta, sigma).transition(dt), cwpa<2>(q).transition(dt), 1e-12);
-  require_near_covariance(singer<2>(theta, sigma).process_covariance(dt), cwpa<2>(q).process_covariance(dt), 1e-12);
-  require_near_covariance(ou_velocity<2>(theta, sigma).process_covariance(dt), cwna<2>(q).process_covariance(dt),
+  require_near(singer<2>(theta, sigma).transition(dt), cwpa<2>(std::sqrt(q)).transition(dt), 1e-12);
+  require_near_covariance(singer<2>(theta, sigma).process_covariance(dt), cwpa<2>(std::sqrt(q)).process_covariance(dt),
                           1e-12);
+  require_near_covariance(ou_velocity<2>(theta, sigma).process_covariance(dt),
+                          cwna<2>(std::sqrt(q)).process_covariance(dt), 1e-12);
 }
 
 TEST(OrnsteinUhlenbeck, InTheLongRunItForgetsAndKeepsItsDeviation) {

@@ -3,9 +3,10 @@
 namespace white_noise_test {
 
 PROPERTY(WhiteNoise, IsTheIntegral) {
-  const double q = number_between(0.1, 5.0), dt = number_between(0.1, 3.0);
-  require_integral({2, 2, {0, 1, 0, 0}}, {2, 2, {0, 0, 0, q}}, cwna<1>(q), dt);
-  require_integral({3, 3, {0, 1, 0, 0, 0, 1, 0, 0, 0}}, {3, 3, {0, 0, 0, 0, 0, 0, 0, 0, q}}, cwpa<1>(q), dt);
+  const double sigma = number_between(0.1, 5.0), dt = number_between(0.1, 3.0);
+  require_integral({2, 2, {0, 1, 0, 0}}, {2, 2, {0, 0, 0, sigma * sigma}}, cwna<1>(sigma), dt);
+  require_integral({3, 3, {0, 1, 0, 0, 0, 1, 0, 0, 0}}, {3, 3, {0, 0, 0, 0, 0, 0, 0, 0, sigma * sigma}}, cwpa<1>(sigma),
+                   dt);
 }
 
 TEST(WhiteNoise, AStepOfNoTimeIsNone) {

@@ -22,7 +22,7 @@ void is_one_filter(Scheme scheme) {
   choice.rules = {.gate_probability = 1.0, .rejections = 0};
   AnyTarget target(choice);
 
-  const Typed typed{dwna<2>(1.0), dwpa<2>(4.0), Turn{CoordinatedTurn<2>{4.0, 0.25 * degree * degree}}};
+  const Typed typed{dwna<2>(1.0), dwpa<2>(4.0), Turn{CoordinatedTurn<2>{2.0, 0.5 * degree}}};
   Gaussian<7> start{Vector<7>(12000, 8000, -100, -100, 0, 0, 0),
                     SquareMatrix<7>(Vector<7>(100, 100, 25, 25, 4, 4, 9.0 * degree * degree).asDiagonal())};
   const auto interaction = interaction_of<Kind>(choice);

@@ -22,7 +22,7 @@ TEST(ComingFrom, FilterPy) {
 }
 
 TEST(ComingFrom, StoneSoup) {
-  const auto motion = cwna<2>(0.05);                // q of ConstantVelocity on both axes
+  const auto motion = cwna<2>(std::sqrt(0.05));     // q of ConstantVelocity on both axes
   Gaussian<4> track{Vector<4>(0.0, 0.0, 1.0, 1.0),  // x, y, vx, vy; theirs is x, vx, y, vy
                     Vector<4>(1.5, 1.5, 0.5, 0.5).asDiagonal().toDenseMatrix()};
   const Gaussian<2> detection{Vector<2>(1.2, 0.9), 5.0 * SquareMatrix<2>::Identity()};

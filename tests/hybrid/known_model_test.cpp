@@ -40,14 +40,14 @@ template <int Axes>
 void are_those_of_their_classes() {
   is<Axes>("dwna", dwna<Axes>(3.0));
   is<Axes>("dwpa", dwpa<Axes>(3.0));
-  is<Axes>("cwna", cwna<Axes>(9.0));
-  is<Axes>("cwpa", cwpa<Axes>(9.0));
+  is<Axes>("cwna", cwna<Axes>(3.0));
+  is<Axes>("cwpa", cwpa<Axes>(3.0));
   is<Axes>("singer", singer<Axes>(1.0 / 8.0, 3.0));
   is<Axes>("ou_position", ou_position<Axes>(1.0 / 8.0, 3.0));
   is<Axes>("ou_velocity", ou_velocity<Axes>(1.0 / 8.0, 3.0));
   if constexpr (Axes > 1) {
-    is<Axes>("known_turn", KnownTurn<Axes>{5.0 * degree, 9.0});
-    is<Axes>("ct", CoordinatedTurn<Axes>{9.0, 0.0625 * degree * degree});
+    is<Axes>("known_turn", KnownTurn<Axes>{5.0 * degree, 3.0});
+    is<Axes>("ct", CoordinatedTurn<Axes>{3.0, 0.25 * degree});
   }
 }
 

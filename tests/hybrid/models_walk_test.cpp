@@ -5,7 +5,7 @@
 namespace models_walk_test {
 
 TEST(ModelsWalk, AStep) {
-  const Unscented filter{CoordinatedTurn<3>{1.0, 1e-4}};
+  const Unscented filter{CoordinatedTurn<3>{1.0, 0.01}};
   Gaussian<7> x{Vector<7>(8e3, 6e3, 1e3, -50.0, 80.0, 0.0, 0.05), 100.0 * SquareMatrix<7>::Identity()};
   x.covariance(6, 6) = 0.01;
   const auto z =
@@ -21,7 +21,7 @@ TEST(ModelsWalk, ModesOfAMultipleModelFilter) {
   const Relation transition{mode, mode, {{1.0, 0.5}, {0.5, 1.0}}};
   Gaussian<7> start{Vector<7>(8e3, 6e3, 1e3, -50.0, 80.0, 0.0, 0.0), 100.0 * SquareMatrix<7>::Identity()};
   start.covariance(6, 6) = 0.01;
-  InteractingMultipleModel filter{std::tuple{dwna<3>(3.0), Extended{CoordinatedTurn<3>{1.0, 1e-4}}}, transition, start};
+  InteractingMultipleModel filter{std::tuple{dwna<3>(3.0), Extended{CoordinatedTurn<3>{1.0, 0.01}}}, transition, start};
   filter.step(0.2, {Vector<3>(7990.0, 6016.0, 1000.0), 25.0 * SquareMatrix<3>::Identity()});
   EXPECT_EQ(filter.components(), (std::vector<std::string>{"x", "y", "z", "vx", "vy", "vz", "omega"}));
   EXPECT_CLOSE(filter.belief()[filter.most_likely_mode()], 1.0, 1e-15);

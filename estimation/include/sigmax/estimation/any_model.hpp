@@ -13,7 +13,7 @@ namespace sigmax {
 /// A model of any type, chosen at run time: a linear motion, or any motion in a member of the Kalman family, also a
 /// user's own. What a multiple-model filter has of each of its models, and a program whose user names them.
 ///
-///     const std::vector<AnyModel> models{dwna<3>(3.0), Extended{CoordinatedTurn<3>{1.0, 1e-4}}};
+///     const std::vector<AnyModel> models{dwna<3>(3.0), Extended{CoordinatedTurn<3>{1.0, 0.01}}};
 ///
 /// A cheap handle: copies share the model, which does not change.
 class AnyModel {

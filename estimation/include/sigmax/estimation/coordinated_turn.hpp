@@ -14,8 +14,8 @@ namespace sigmax {
 /// Wiener process and z moves uniformly.
 ///
 /// f turns the velocity by θ = ωT and moves the position along the arc (Bar-Shalom, Li, Kirubarajan 2001, 11.7.1), and
-/// is smooth at ω = 0. The noise is that of CWNA on every axis, q in m²/s³, its turning within the step neglected, and
-/// q_ω T for ω, q_ω in rad²/s³.
+/// is smooth at ω = 0. The noise is that of CWNA on every axis, σ_w in m/s^1.5, its turning within the step neglected,
+/// and of variance σ_ω² T for ω, σ_ω in rad/s^1.5.
 template <int Axes>
 class CoordinatedTurn {
   static_assert(Axes == 2 || Axes == 3, "a turn needs two axes, and may have an altitude");
@@ -29,12 +29,13 @@ class CoordinatedTurn {
   using State = Vector<state_size>;
   using Matrix = SquareMatrix<state_size>;
 
-  /// Throws std::invalid_argument unless q and q_ω are finite and not negative.
-  CoordinatedTurn(double q, double q_omega)
-      : q_(detail::motion_parameter(q, "q", name())), q_omega_(detail::motion_parameter(q_omega, "q_omega", name())) {}
+  /// Throws std::invalid_argument unless σ_w and σ_ω are finite and not negative.
+  CoordinatedTurn(double sigma_w, double sigma_omega)
+      : sigma_w_(detail::motion_parameter(sigma_w, "sigma_w", name())),
+        sigma_omega_(detail::motion_parameter(sigma_omega, "sigma_omega", name())) {}
 
-  double q() const { return q_; }
-  double q_omega() const { return q_omega_; }
+  double sigma_w() const { return sigma_w_; }
+  double sigma_omega() const { return sigma_omega_; }
   Eigen::Index size() const { return state_size; }
   std::string_view name() const { return "coordinated_turn"; }
   std::vector<std::string> components() const {
@@ -61,12 +62,12 @@ class CoordinatedTurn {
     return Q;
   }
   void compute(const double* x, double dt, double* image, double* F, double* Q) const {
-    detail::coordinated_turn(Axes, q_, q_omega_, x, dt, image, F, Q);
+    detail::coordinated_turn(Axes, sigma_w_ * sigma_w_, sigma_omega_ * sigma_omega_, x, dt, image, F, Q);
   }
 
  private:
-  double q_;
-  double q_omega_;
+  double sigma_w_;
+  double sigma_omega_;
 };
 
 }  // namespace sigmax
