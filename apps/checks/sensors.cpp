@@ -31,8 +31,8 @@ constexpr Rereading rereadings[] = {
 
 Vector position(const Record& row, const Rereading& read) {
   if (!row.is_radar()) return row.at;
-  return row.from +
-         to_cartesian({read.range * row.range, read.azimuth * row.azimuth + read.more_azimuth, row.elevation});
+  return row.from + to_cartesian({read.range * row.range, radians(read.azimuth * row.azimuth + read.more_azimuth),
+                                  radians(row.elevation)});
 }
 
 /// A row of one sensor off what another one, or the truth, says at its time: where that is, and how fast.

@@ -17,10 +17,8 @@ constexpr std::array conversions{Conversion::standard, Conversion::unbiased, Con
 
 /// NEES of a conversion of what the radar measured; without a deviation of the elevation, in the plane.
 double nees_of(const Polar& measured, const Polar& sigma, const Polar& truth, Conversion conversion) {
-  const Gaussian<3> converted = to_cartesian(measured, sigma, conversion);
-  if (sigma.elevation > 0.0) return nees(converted, to_cartesian(truth));
-  return normalized_error_squared<2, 2>((converted.mean - to_cartesian(truth)).head<2>(),
-                                        converted.covariance.topLeftCorner<2, 2>());
+  if (sigma.elevation.radians() > 0.0) return nees(to_cartesian(measured, sigma, conversion), to_cartesian(truth));
+  return nees(to_cartesian<2>(measured, sigma, conversion), to_cartesian<2>(truth));
 }
 
 std::array<double, 3> study(const Polar& truth, const Polar& sigma, int draws) {
@@ -28,8 +26,8 @@ std::array<double, 3> study(const Polar& truth, const Polar& sigma, int draws) {
   std::array<double, 3> sum{};
   for (int i = 0; i < draws; ++i) {
     const double range = truth.range + sigma.range * noise.normal();
-    const double azimuth = truth.azimuth + sigma.azimuth * noise.normal();
-    const double elevation = truth.elevation + sigma.elevation * noise.normal();
+    const Angle azimuth = truth.azimuth + noise.normal() * sigma.azimuth;
+    const Angle elevation = truth.elevation + noise.normal() * sigma.elevation;
     for (std::size_t k = 0; k < 3; ++k)
       sum[k] += nees_of({range, azimuth, elevation}, sigma, truth, conversions[k]) / draws;
   }
@@ -45,9 +43,9 @@ int main(int argc, char** argv) {
               << band.lower << " to " << band.upper << " is consistent\n"
               << "  sigma   r s^2/s_r   standard   unbiased   debiased\n";
     for (const double sigma_deg : {0.1, 0.9, 1.8, 3.0}) {
-      const double angle = sigma_deg * std::numbers::pi / 180.0;
-      const Polar sigma{100.0, angle, in_space ? angle : 0.0};
-      const auto found = study({target.range, target.azimuth, in_space ? target.elevation : 0.0}, sigma, draws);
+      const Angle angle = degrees(sigma_deg), none;
+      const Polar sigma{100.0, angle, in_space ? angle : none};
+      const auto found = study({target.range, target.azimuth, in_space ? target.elevation : none}, sigma, draws);
       std::cout << std::setprecision(1) << std::setw(5) << sigma_deg << " deg" << std::setprecision(3) << std::setw(10)
                 << conversion_validity(target.range, sigma) << std::setprecision(2);
       for (const double value : found) std::cout << std::setw(11) << value;

@@ -208,7 +208,8 @@ class SweepWorld {
     const double mismatch = conditions[condition].factors[noise];
     const Polar sigma = group(1, conditions[condition].scenario).data;
     FilterSettings own = filters[f];
-    own.accuracy.radar = {mismatch * sigma.range, mismatch * sigma.azimuth, mismatch * sigma.elevation};
+    own.accuracy.radar = {mismatch * sigma.range, mismatch * sigma.azimuth.radians(),
+                          mismatch * sigma.elevation.radians()};
     own.transition = {{own.fuzzy ? 1.0 : 1.0 - numbers[0], numbers[0]},
                       {numbers[1], own.fuzzy ? 1.0 : 1.0 - numbers[1]}};
     for (const std::size_t model : {0U, 1U}) own.motions[model][MotionParameter::sigma_w] = numbers[2 + model];

@@ -8,7 +8,8 @@ namespace sigmax::apps {
 std::optional<Position> position_of(const AnyPlot& plot, int axes) {
   if (axes_seen(plot, axes) == 0) return std::nullopt;
   const bool is_seen = plot.sensor == AnyPlot::Sensor::polar || plot.sensor == AnyPlot::Sensor::doppler;
-  const sigmax::Vector<3> from = to_cartesian({plot.z[0], plot.z[1], axes_seen(plot, axes) == 3 ? plot.z[2] : 0.0});
+  const sigmax::Vector<3> from =
+      to_cartesian({plot.z[0], radians(plot.z[1]), radians(axes_seen(plot, axes) == 3 ? plot.z[2] : 0.0)});
   Position at = plot.origin;
   for (int i = 0; i < axes; ++i)
     at[static_cast<std::size_t>(i)] =
@@ -17,8 +18,8 @@ std::optional<Position> position_of(const AnyPlot& plot, int axes) {
 }
 
 Polar measured(Polar exact, const Polar& sigma, RandomStream& random) {
-  exact.azimuth += sigma.azimuth * random.normal();
-  exact.elevation += sigma.elevation * random.normal();
+  exact.azimuth += random.normal() * sigma.azimuth;
+  exact.elevation += random.normal() * sigma.elevation;
   exact.range += sigma.range * random.normal();
   return exact;
 }
@@ -40,14 +41,14 @@ void see_by_radar(Row& row, const std::optional<Position>& position, int axes, c
   const auto& sigma = *radar.sigma;
   const Position at = radar.place();
   const Polar seen = measured(to_polar(sigmax::Vector<3>(position->data()) - sigmax::Vector<3>(at.data())),
-                              {sigma[0], sigma[1] * degree, sigma[2] * degree}, random);
+                              {sigma[0], degrees(sigma[1]), degrees(sigma[2])}, random);
   if (!(seen.range > 0.0))
     throw InputError(
         "{}:{}: the simulated radar: found a range of {} m, expected a positive one; put the radar farther from the "
         "track with --radar-at=E,N,U",
         file, row.line, shortest(seen.range));
   row.truth = position;
-  row.plot = AnyPlot::polar(row.plot.time, std::array{seen.range, seen.azimuth, seen.elevation},
+  row.plot = AnyPlot::polar(row.plot.time, std::array{seen.range, seen.azimuth.radians(), seen.elevation.radians()},
                             std::array{nan, nan, nan}, at);
 }
 

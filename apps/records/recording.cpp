@@ -170,7 +170,7 @@ AnyPlot RecordingReader::radar_plot() const {
                                                                   : azimuth) *
                            degree;
   const double sigma_azimuth = said(Role::sigma_polar, 1).value_or(nan) * degree;
-  if (is_bearing) return AnyPlot::bearing(0.0, from_east, sigma_azimuth * sigma_azimuth);
+  if (is_bearing) return AnyPlot::bearing(0.0, radians(from_east), radians(sigma_azimuth));
   const double sigma_range = said(Role::sigma_polar).value_or(nan);
   std::vector<double> z = {*said(Role::polar), from_east};
   std::vector<double> variances = {sigma_range * sigma_range, sigma_azimuth * sigma_azimuth};

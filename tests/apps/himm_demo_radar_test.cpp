@@ -25,7 +25,7 @@ struct Row {
 };
 
 /// What the radar and the filters believe.
-const Polar sigma{20.0, 2.0 * degree, 1.5 * degree};
+const Polar sigma{20.0, degrees(2.0), degrees(1.5)};
 const double sigma_position = 15.0;
 const Vector<3> radar_at{400.0, -300.0, 10.0};
 
@@ -47,8 +47,8 @@ std::vector<Row> passing_target(int axes, bool others) {
     if (axes == 2) from_radar.z() = 0.0;
     Polar seen = to_polar(from_radar);
     seen.range += sigma.range * normal(engine);
-    seen.azimuth += sigma.azimuth * normal(engine);
-    if (axes == 3) seen.elevation += sigma.elevation * normal(engine);
+    seen.azimuth += normal(engine) * sigma.azimuth;
+    if (axes == 3) seen.elevation += normal(engine) * sigma.elevation;
     Vector<3> position = x;
     for (int axis = 0; axis < axes; ++axis) position(axis) += sigma_position * normal(engine);
     rows.push_back({time, seen, !(others && k % 3 == 2), position});
@@ -62,7 +62,7 @@ std::string csv(const std::vector<Row>& rows, int axes) {
   for (const auto& row : rows) {
     text += exact(row.time) + (row.by_radar ? ",radar" : ",beacon");
     for (int axis = 0; axis < axes; ++axis) text += row.by_radar ? "," : "," + exact(row.position(axis));
-    const std::array seen = {row.seen.range, row.seen.azimuth / degree, row.seen.elevation / degree};
+    const std::array seen = {row.seen.range, row.seen.azimuth.degrees(), row.seen.elevation.degrees()};
     for (int i = 0; i < axes; ++i) text += row.by_radar ? "," + exact(seen[static_cast<std::size_t>(i)]) : ",";
     text += "\n";
   }
@@ -81,7 +81,7 @@ Gaussian<Axes> converted(const Row& row, Conversion conversion) {
   if (!row.by_radar)
     return {row.position.head<Axes>(), sigma_position * sigma_position * SquareMatrix<Axes>::Identity()};
   Polar deviations = sigma;
-  if (Axes == 2) deviations.elevation = 0.0;
+  if (Axes == 2) deviations.elevation = Angle{};
   const Gaussian<3> z = to_cartesian(row.seen, deviations, conversion);
   const Vector<3> moved = z.mean + radar_at;
   return {moved.head<Axes>(), z.covariance.topLeftCorner<Axes, Axes>()};
@@ -138,8 +138,7 @@ void equals_own_space_by_hand(const std::string& member) {
         if (!row.by_radar)
           return update(dwna<Axes>(2.0), estimate, converted<Axes>(row, Conversion::standard), estimate)
               .squared_distance;
-        return update(seen, estimate, PolarSensor<Axes>::measurement(row.seen, sigma), radar, estimate)
-            .squared_distance;
+        return update(seen, estimate, radar.measurement(row.seen, sigma), estimate).squared_distance;
       });
 }
 
@@ -168,7 +167,7 @@ TEST(HimmDemoRadar, InItsOwnSpaceEveryModelOfAFilterSeesIt) {
   InteractingMultipleModel filter{models, Relation{mode, mode, {{0.9, 0.1}, {0.2, 0.8}}},
                                   std::tuple{straight, turning}};
   for (std::size_t k = 3; k < rows.size(); ++k) {
-    filter.step(rows[k].time - rows[k - 1].time, PolarSensor<2>::measurement(rows[k].seen, sigma), radar);
+    filter.step(rows[k].time - rows[k - 1].time, radar.measurement(rows[k].seen, sigma));
     const auto estimate = filter.estimate();
     const auto& row = found[k - 3];
     SCOPED_TRACE("row " + std::to_string(k));

@@ -153,10 +153,11 @@ TEST(EarthTarget, IsSeenFromPlacesOnTheEarth) {
   const LocalFrame frame(place(0), 3);
   for (int k = 0; k < 40; ++k) {
     const Polar seen = to_polar(sighting(place(k)));
-    const Numbers z = {seen.range, seen.azimuth, seen.elevation};
+    const Numbers z = {seen.range, seen.azimuth.radians(), seen.elevation.radians()};
     const AnyPlot plot = seen_from(station, AnyPlot::polar(2.0 * k, z, variances), frame, 3);
     const Position expected = frame.to_local(place(k));
-    const Vector<3> found = to_cartesian({plot.z[0], plot.z[1], plot.z[2]}) + Vector<3>(plot.origin.data());
+    const Vector<3> found =
+        to_cartesian({plot.z[0], radians(plot.z[1]), radians(plot.z[2])}) + Vector<3>(plot.origin.data());
     for (Eigen::Index i = 0; i < 3; ++i)
       EXPECT_NEAR(found[i], expected[static_cast<std::size_t>(i)], 1e-9 * seen.range) << k;
   }
@@ -166,7 +167,7 @@ TEST(EarthTarget, IsSeenFromPlacesOnTheEarth) {
   EarthPoint last;
   for (int k = 0; k < 60; ++k) {
     const Polar seen = to_polar(sighting(place(k)));
-    const Numbers z = {seen.range, seen.azimuth, seen.elevation}, R = {25.0, 1e-7, 1e-7};
+    const Numbers z = {seen.range, seen.azimuth.radians(), seen.elevation.radians()}, R = {25.0, 1e-7, 1e-7};
     AnyPlot plot = AnyPlot::polar(2.0 * k, std::span(z).first(k < 10 ? 3 : 2), std::span(R).first(k < 10 ? 3 : 2), at);
     if (k >= 10 && k % 2 == 0)
       plot = AnyPlot::components(2.0 * k, std::array{2}, Numbers{place(k).altitude_m}, Numbers{25.0});

@@ -30,7 +30,7 @@ Scenario scenario(int number, Preset preset) {
 Group group(int number, int scenario_number) {
   assert(number >= 1 && number <= 4);
   const double scale = scenario_number == 1 ? 1.0 : 9.0;
-  const Polar accurate{scenario_number == 1 ? 10.0 : 100.0, 0.1 * degree * scale, 0.1 * degree * scale};
+  const Polar accurate{scenario_number == 1 ? 10.0 : 100.0, degrees(0.1 * scale), degrees(0.1 * scale)};
   const auto times = [&](double factor) {
     return Polar{factor * accurate.range, factor * accurate.azimuth, factor * accurate.elevation};
   };

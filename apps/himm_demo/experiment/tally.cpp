@@ -102,7 +102,8 @@ TracedRun Experiment::traced(std::uint64_t number) const {
 FilterDefaults defaults_of(Preset preset, const Group& parameters) {
   FilterDefaults defaults = FilterDefaults::of(preset);
   for (auto& motion : defaults.filter.motions) motion[MotionParameter::sigma_w] = parameters.sigma_w;
-  defaults.filter.accuracy.radar = {parameters.model.range, parameters.model.azimuth, parameters.model.elevation};
+  defaults.filter.accuracy.radar = {parameters.model.range, parameters.model.azimuth.radians(),
+                                    parameters.model.elevation.radians()};
   return defaults;
 }
 

@@ -21,8 +21,9 @@ std::optional<double> sigma_of(const Accuracy& accuracy, const AnyPlot& plot, st
 /// What a radar measured, as a position.
 AnyPlot converted(const AnyPlot& seen, RadarForm form) {
   const auto n = static_cast<std::size_t>(seen.size);
-  Polar measured{seen.z[0], seen.z[1], 0.0}, sigma{std::sqrt(seen.variance(0)), std::sqrt(seen.variance(1)), 0.0};
-  if (n == 3) measured.elevation = seen.z[2], sigma.elevation = std::sqrt(seen.variance(2));
+  Polar measured{seen.z[0], radians(seen.z[1])},
+      sigma{std::sqrt(seen.variance(0)), radians(std::sqrt(seen.variance(1)))};
+  if (n == 3) measured.elevation = radians(seen.z[2]), sigma.elevation = radians(std::sqrt(seen.variance(2)));
   const Gaussian<3> position = to_cartesian(measured, sigma, static_cast<Conversion>(form));
   AnyPlot plot{.time = seen.time, .tag = seen.tag, .sensor = AnyPlot::Sensor::position, .size = seen.size};
   for (std::size_t i = 0; i < n; ++i) {

@@ -69,10 +69,10 @@ AnyPlot seen_from(const Geodetic& sensor, AnyPlot plot, const LocalFrame& frame,
   const bool is_bearing = plot.sensor == AnyPlot::Sensor::bearing;
   const bool has_elevation = !is_bearing && axes == 3 && plot.size > 2;
   double& azimuth = plot.z[is_bearing ? 0 : 1];
-  const Vector<3> seen = to_cartesian({1.0, azimuth, has_elevation ? plot.z[2] : 0.0});
+  const Vector<3> seen = to_cartesian({1.0, radians(azimuth), radians(has_elevation ? plot.z[2] : 0.0)});
   const Polar turned = to_polar(local_axes(frame, plot.origin, 3).transpose() * seen);
-  azimuth = turned.azimuth;
-  if (has_elevation) plot.z[2] = turned.elevation;
+  azimuth = turned.azimuth.radians();
+  if (has_elevation) plot.z[2] = turned.elevation.radians();
   return plot;
 }
 
