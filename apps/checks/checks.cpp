@@ -20,22 +20,25 @@ void RecordingChecks::see(const Row& row, const LocalFrame* frame) {
   for (const std::size_t q : records_->columns) track.written.push_back(recording.written(q).value_or(nan));
   auto sensor = std::ranges::find(records_->sensors, row.sensor);
   if (sensor == records_->sensors.end()) sensor = records_->sensors.insert(sensor, row.sensor);
-  const AnyPlot& plot = row.plot;
-  Record record{plot.time, row.line, static_cast<std::size_t>(sensor - records_->sensors.begin()),
-                Vector(row.rates.data()), Vector(plot.origin.data())};
+  const AnyDetection& detection = row.detection;
+  Record record{detection.time, row.line, static_cast<std::size_t>(sensor - records_->sensors.begin()),
+                Vector(row.rates.data()), Vector(detection.origin.data())};
   if (row.truth) record.truth = Vector(row.truth->data());
   for (int i = 0; i < axes; ++i)
-    if (const auto own = plot.sensor == AnyPlot::Sensor::components ? component_of(plot, axes + i) : std::nullopt)
+    if (const auto own =
+            detection.sensor == AnyDetection::Sensor::components ? component_of(detection, axes + i) : std::nullopt)
       record.velocity[i] = *own;
   record.climb = record.velocity[2];
-  const bool is_seen = plot.sensor == AnyPlot::Sensor::polar || plot.sensor == AnyPlot::Sensor::doppler;
-  const auto here = place_of(plot, axes, track.altitude_m);
-  if (is_seen && axes_seen(plot, axes) == axes) {
-    record.range = plot.z[0];
-    record.azimuth = plot.z[1];
-    if (axes == 3) record.elevation = plot.z[2];
-    if (plot.sensor == AnyPlot::Sensor::doppler) record.range_rate = plot.z[static_cast<std::size_t>(axes)];
-    record.at = Vector(position_of(plot, axes)->data());
+  const bool is_seen =
+      detection.sensor == AnyDetection::Sensor::polar || detection.sensor == AnyDetection::Sensor::doppler;
+  const auto here = place_of(detection, axes, track.altitude_m);
+  if (is_seen && axes_seen(detection, axes) == axes) {
+    record.range = detection.z[0];
+    record.azimuth = detection.z[1];
+    if (axes == 3) record.elevation = detection.z[2];
+    if (detection.sensor == AnyDetection::Sensor::doppler)
+      record.range_rate = detection.z[static_cast<std::size_t>(axes)];
+    record.at = Vector(position_of(detection, axes)->data());
     records_->radars.try_emplace(record.sensor, record.from);
   } else if (recording.geodetic() && here) {
     track.altitude_m = here->altitude_m;
@@ -48,8 +51,8 @@ void RecordingChecks::see(const Row& row, const LocalFrame* frame) {
       if (const double own = record.velocity[static_cast<Eigen::Index>(i)]; !std::isnan(own) || i < 2)
         turned += own * Vector(turn[i].data());
     record.velocity = turned;
-  } else if (!is_seen && axes_seen(plot, axes) == axes) {
-    record.at = Vector(position_of(plot, axes)->data());
+  } else if (!is_seen && axes_seen(detection, axes) == axes) {
+    record.at = Vector(position_of(detection, axes)->data());
     record.height = axes == 3 ? record.at[2] : nan;
   }
   track.rows.push_back(record);

@@ -122,7 +122,8 @@ Drawn draw_run(const EsmWorld& world, const EsmTruth& truth, std::size_t reports
   return run;
 }
 
-Contestant usage_aware_contestant(const EsmWorld& world, const Usage& usage, const Relation<Random, Random>& sensor) {
+NamedClassifier usage_aware_contestant(const EsmWorld& world, const Usage& usage,
+                                       const Relation<Random, Random>& sensor) {
   std::vector<std::vector<double>> usages, platforms;
   std::vector<double> prior;
   for (std::size_t c = 0; c < world.platform.size(); ++c) {
@@ -154,12 +155,12 @@ Usage usage_of(const EsmOptions& options) {
   return options.alpha ? Usage{Usage::Kind::dirichlet, *options.alpha} : Usage{};
 }
 
-std::vector<Contestant> contestants(const EsmWorld& world, const EsmOptions& options) {
+std::vector<NamedClassifier> contestants(const EsmWorld& world, const EsmOptions& options) {
   const auto sensor = world.sensor(sensor_hit);
   const auto ratio = to_possibility(sensor, RatioScale{}), dubois_prade = to_possibility(sensor, DuboisPrade{});
   const auto usage = world.equal_usage();
   const auto carries = world.carries();
-  std::vector<Contestant> all = {
+  std::vector<NamedClassifier> all = {
       read_by("sigma", usage, sensor),
       read_by("max, ratio scale", carries, with_fuzzy_condition(ratio)),
       read_by("max, Dubois-Prade", carries, with_fuzzy_condition(dubois_prade)),

@@ -26,9 +26,9 @@ struct Regime {
 };
 
 /// Sigma, sigma-max and max inference from the same knowledge.
-std::vector<Contestant> equally_informed(const Relation<Random, Random>& probable,
-                                         const Relation<Fuzzy, Fuzzy>& possible, const Relation<Random, Random>& sensor,
-                                         std::size_t sensors) {
+std::vector<NamedClassifier> equally_informed(const Relation<Random, Random>& probable,
+                                              const Relation<Fuzzy, Fuzzy>& possible,
+                                              const Relation<Random, Random>& sensor, std::size_t sensors) {
   const auto dubois_prade = to_possibility(sensor, DuboisPrade{});
   return {read_by("sigma", probable, sensor, sensors),
           read_by("sigma-max", possible, with_fuzzy_condition(sensor), sensors),
@@ -38,7 +38,7 @@ std::vector<Contestant> equally_informed(const Relation<Random, Random>& probabl
 
 /// From the lists of what platforms carry; emitters elsewhere are possible to a degree, and probable in proportion,
 /// (35).
-std::vector<Contestant> from_the_lists(const EsmWorld& world, const Setting& setting) {
+std::vector<NamedClassifier> from_the_lists(const EsmWorld& world, const Setting& setting) {
   const auto possible = world.carries(setting.elsewhere);
   const auto probable = with_random_condition(to_probability(possible, RatioScale{}));
   const auto sensor = world.sensor(setting.hit);
@@ -48,7 +48,7 @@ std::vector<Contestant> from_the_lists(const EsmWorld& world, const Setting& set
 }
 
 /// From labelled reports of each platform, earlier, when the usages were others.
-std::vector<Contestant> learned(const EsmWorld& world, const Setting& setting, RandomStream& random) {
+std::vector<NamedClassifier> learned(const EsmWorld& world, const Setting& setting, RandomStream& random) {
   Counts counts{world.platform, {world.emitter}};
   for (std::size_t c = 0; c < world.platform.size(); ++c) {
     const auto earlier = draw_usage(world, c, setting.truth.usage, random);
@@ -187,7 +187,7 @@ Condition condition_of(const EsmWorld& world, const Setting& setting, std::size_
   RandomStream for_names(seed, 0);
   return {contestants(for_names), [&, contestants, reports, seed](std::size_t run) {
             RandomStream random(seed, run);
-            auto anew = setting.seen > 0 ? contestants(random) : std::vector<Contestant>();
+            auto anew = setting.seen > 0 ? contestants(random) : std::vector<NamedClassifier>();
             Drawn drawn = draw_run(world, setting.truth, reports, random);
             drawn.contestants = std::move(anew);
             return drawn;

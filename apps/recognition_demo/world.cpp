@@ -18,7 +18,7 @@ struct Trace {
 };
 
 /// The contestant's classifier, from its prior on, over the reports of a run.
-Trace follow(const Contestant& contestant, const Drawn& drawn) {
+Trace follow(const NamedClassifier& contestant, const Drawn& drawn) {
   Trace trace;
   const auto see = [&](const auto& belief) {
     trace.credit.push_back(credit(belief, drawn.truth));
@@ -46,9 +46,9 @@ Trace follow(const Contestant& contestant, const Drawn& drawn) {
 
 /// A run as the row of a cell: the truth, the number of reports; of each contestant what it refused, its credits and
 /// its belief.
-Study::Row row_of(const Drawn& drawn, const std::vector<Contestant>& contestants) {
+Study::Row row_of(const Drawn& drawn, const std::vector<NamedClassifier>& contestants) {
   Study::Row row = {static_cast<double>(drawn.truth), static_cast<double>(drawn.reports.size())};
-  for (const Contestant& contestant : contestants) {
+  for (const NamedClassifier& contestant : contestants) {
     const Trace trace = follow(contestant, drawn);
     row.push_back(static_cast<double>(trace.refused));
     row.insert(row.end(), trace.credit.begin(), trace.credit.end());
@@ -58,13 +58,13 @@ Study::Row row_of(const Drawn& drawn, const std::vector<Contestant>& contestants
 }
 
 /// A run, and what each contestant made of it.
-struct SeenRun {
+struct RunResult {
   std::size_t truth;
   std::vector<Trace> traces;
 };
 
-SeenRun run_of(const Study::Row& row, std::size_t contestants) {
-  SeenRun seen{static_cast<std::size_t>(row[0]), {}};
+RunResult run_of(const Study::Row& row, std::size_t contestants) {
+  RunResult seen{static_cast<std::size_t>(row[0]), {}};
   const auto reports = static_cast<std::ptrdiff_t>(row[1]);
   const auto size = static_cast<std::ptrdiff_t>((row.size() - 2) / contestants);
   for (auto at = row.begin() + 2; at != row.end(); at += size)
@@ -72,7 +72,7 @@ SeenRun run_of(const Study::Row& row, std::size_t contestants) {
   return seen;
 }
 
-void add(Scores& scores, const SeenRun& run) {
+void add(Scores& scores, const RunResult& run) {
   for (std::size_t i = 0; i < scores.size(); ++i) {
     const Trace& trace = run.traces[i];
     Score& score = scores[i];
@@ -102,7 +102,7 @@ std::vector<std::size_t> shown_reports(std::size_t reports) {
 
 void run_world(const World& world, const DrawOptions& options, ResultFiles& files) {
   auto scores = each(world.conditions, [](const Condition& condition) {
-    return each(condition.contestants, [](const Contestant& one) {
+    return each(condition.contestants, [](const NamedClassifier& one) {
       return Score{one.name, std::holds_alternative<Classifier<Fuzzy, Fuzzy>>(one.classifier), one.has_possibilities};
     });
   });

@@ -14,7 +14,7 @@ struct DrawOptions {
 };
 
 /// One of the classifiers that are compared on the same reports.
-struct Contestant {
+struct NamedClassifier {
   std::string name;
   AnyClassifier classifier;
   /// For a sigma classifier of something finer than the pattern: the pattern of each of its outcomes.
@@ -26,12 +26,12 @@ struct Contestant {
 struct Drawn {
   std::size_t truth;
   std::vector<Readings> reports;
-  std::vector<Contestant> contestants{};  ///< if they learn anew in every run
+  std::vector<NamedClassifier> contestants{};  ///< if they learn anew in every run
 };
 
 /// Who is compared, and a run by its number, which any thread draws.
 struct Condition {
-  std::vector<Contestant> contestants;
+  std::vector<NamedClassifier> contestants;
   std::function<Drawn(std::size_t run)> draw;
 };
 
@@ -121,8 +121,8 @@ Drawn draw_run(const EsmWorld& world, const EsmTruth& truth, std::size_t reports
 /// if all is random, max inference, (44)–(46), if all is fuzzy; sigma-max inference, (17) without β and (19), if a
 /// random sensor reads what platforms may carry, and max-sigma inference, (18) without β and (20), the other way round.
 template <Uncertainty Kind, Uncertainty Reading>
-Contestant read_by(std::string name, const Relation<Kind, Kind>& emitter_given_platform,
-                   const Relation<Reading, Kind>& sensor, std::size_t sensors = 1) {
+NamedClassifier read_by(std::string name, const Relation<Kind, Kind>& emitter_given_platform,
+                        const Relation<Reading, Kind>& sensor, std::size_t sensors = 1) {
   const std::vector features(sensors, FeatureModel<Kind, Kind>{emitter_given_platform, sensor});
   return {std::move(name), Classifier<Kind, Kind>{uninformative(emitter_given_platform.from()), features}, std::nullopt,
           std::is_same_v<Kind, Fuzzy> || std::is_same_v<Reading, Fuzzy>};
@@ -130,7 +130,8 @@ Contestant read_by(std::string name, const Relation<Kind, Kind>& emitter_given_p
 
 /// Sigma inference that knows how usages are drawn and averages over them: its patterns are usages, a grid of equal
 /// probability for Dirichlet(α). The reference: nothing can be better but by what the grid leaves out.
-Contestant usage_aware_contestant(const EsmWorld& world, const Usage& usage, const Relation<Random, Random>& sensor);
+NamedClassifier usage_aware_contestant(const EsmWorld& world, const Usage& usage,
+                                       const Relation<Random, Random>& sensor);
 
 /// The names of the regimes: ways in which beliefs about the emitter world are wrong.
 std::vector<std::string> regime_names();

@@ -24,12 +24,12 @@ bool RecordingReader::next(Row& row) {
   take_numbers();
   row.truth = position(Role::truth);
   row.rates = rates();
-  const double time = row.plot.time;
+  const double time = row.detection.time;
   row.sensor_at = position(Role::sensor_position);
   row.sensor_place = says(Role::sensor_place) ? std::optional(place(Role::sensor_place)) : std::nullopt;
   ++rows_;
-  row.plot = measured();
-  row.plot.time = time;
+  row.detection = measured();
+  row.detection.time = time;
   return true;
 }
 
@@ -144,17 +144,17 @@ Geodetic RecordingReader::place(Role role) const {
 }
 
 /// What the row measured.
-AnyPlot RecordingReader::measured() {
+AnyDetection RecordingReader::measured() {
   const bool is_located = says(where()), is_moving = says(Role::velocity) || says(Role::course);
   const bool is_seen = says(Role::polar) && (polar() || !is_located);
   if (is_located && is_seen)
     throw error(Role::polar, 0, "an empty cell, since the row has a position", "give each sensor a row of its own");
   if (!is_seen) return components();
   if (is_moving) ++unused_velocities_;
-  return radar_plot();
+  return radar_detection();
 }
 
-AnyPlot RecordingReader::radar_plot() const {
+AnyDetection RecordingReader::radar_detection() const {
   const bool is_bearing = !said(Role::polar, 0) && !said(Role::polar, 2);
   if (!is_bearing) require_whole(Role::polar, 2);  // in space it may have no elevation
   if (!is_bearing && !(*said(Role::polar) > 0.0))
@@ -170,7 +170,7 @@ AnyPlot RecordingReader::radar_plot() const {
                                                                   : azimuth) *
                            degree;
   const double sigma_azimuth = said(Role::sigma_polar, 1).value_or(nan) * degree;
-  if (is_bearing) return AnyPlot::bearing(0.0, radians(from_east), radians(sigma_azimuth));
+  if (is_bearing) return AnyDetection::bearing(0.0, radians(from_east), radians(sigma_azimuth));
   const double sigma_range = said(Role::sigma_polar).value_or(nan);
   std::vector<double> z = {*said(Role::polar), from_east};
   std::vector<double> variances = {sigma_range * sigma_range, sigma_azimuth * sigma_azimuth};
@@ -179,14 +179,15 @@ AnyPlot RecordingReader::radar_plot() const {
     z.push_back(*said(Role::polar, 2) * degree);
     variances.push_back(sigma_elevation * sigma_elevation);
   }
-  if (!said(Role::range_rate) || z.size() < static_cast<std::size_t>(axes_)) return AnyPlot::polar(0.0, z, variances);
+  if (!said(Role::range_rate) || z.size() < static_cast<std::size_t>(axes_))
+    return AnyDetection::polar(0.0, z, variances);
   z.push_back(*said(Role::range_rate));
   variances.push_back(nan);
-  return AnyPlot::doppler(0.0, z, variances);
+  return AnyDetection::doppler(0.0, z, variances);
 }
 
 /// The position, as far as the row has it, and the velocity; or that nothing was measured.
-AnyPlot RecordingReader::components() const {
+AnyDetection RecordingReader::components() const {
   // A place has a latitude and a longitude; another position may lack any coordinate.
   if (geodetic() && (said(Role::place) || said(Role::place, 1))) place(Role::place);
   std::vector<int> places;
@@ -207,7 +208,7 @@ AnyPlot RecordingReader::components() const {
   }
   for (std::size_t i = 0; i < 3; ++i)
     if (said(Role::velocity, i)) add(axes + i, *said(Role::velocity, i), nan);
-  return z.empty() ? AnyPlot{} : AnyPlot::components(0.0, places, z, covariance(places, variances));
+  return z.empty() ? AnyDetection{} : AnyDetection::components(0.0, places, z, covariance(places, variances));
 }
 
 /// The covariance of components at these places of the state, row by row, by their variances where the row tells none.

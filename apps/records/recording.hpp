@@ -1,6 +1,6 @@
 #pragma once
 
-#include <sigmax/earth/earth_plot.hpp>
+#include <sigmax/earth/earth_detection.hpp>
 #include <sigmax/estimation/radar.hpp>
 
 #include "shell/command_line.hpp"
@@ -37,7 +37,7 @@ struct Row {
   /// What was measured, and when: a position and a velocity as components, a radar's measurement or a bearing. In a
   /// geodetic recording the position is latitude and longitude in degrees and the altitude in m. A variance that the
   /// row does not tell is NaN.
-  AnyPlot plot{};
+  AnyDetection detection{};
   std::optional<Position> sensor_at{};     ///< where the sensor stands, if the row tells it, in m
   std::optional<Geodetic> sensor_place{};  ///< the same on the Earth
   std::optional<Position> truth{};
@@ -45,7 +45,7 @@ struct Row {
   std::optional<double> roll_deg{};
   bool predicted = false;  ///< no row, but the time of --predict-to
 
-  bool measured() const { return plot.sensor != AnyPlot::Sensor::none; }
+  bool measured() const { return detection.sensor != AnyDetection::Sensor::none; }
 };
 
 /// So many rows, and the line of the first.
@@ -176,9 +176,9 @@ class RecordingReader {
   Geodetic place(Role role) const;
   std::optional<Position> position(Role role) const;
   InputError error(Role role, std::size_t i, std::string_view expected, std::string_view remedy) const;
-  AnyPlot measured();
-  AnyPlot radar_plot() const;
-  AnyPlot components() const;
+  AnyDetection measured();
+  AnyDetection radar_detection() const;
+  AnyDetection components() const;
   std::vector<double> covariance(const std::vector<int>& places, std::vector<double> variances) const;
 
   RecordingOptions options_;
@@ -207,9 +207,9 @@ class RecordingReader {
 
 class RandomStream;
 
-/// The position that a plot tells, a radar's or of components; 0 along what those do not have, nothing if there is
+/// The position that a detection tells, a radar's or of components; 0 along what those do not have, nothing if there is
 /// none.
-std::optional<Position> position_of(const AnyPlot& plot, int axes);
+std::optional<Position> position_of(const AnyDetection& detection, int axes);
 
 /// What a radar with these standard deviations measures.
 Polar measured(Polar exact, const Polar& sigma, RandomStream& random);

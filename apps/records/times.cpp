@@ -51,7 +51,7 @@ bool RecordingReader::take_time(Row& row) {
                                      "--time-format '%d/%m/%Y %H:%M:%S'"));
   times_are_numbers_ = options_.time_format.empty() && parse_number(row_[time_]);
   const double time = of_day ? on_its_day(row, *found) : *found;
-  row.plot.time = time;
+  row.detection.time = time;
   const bool refused = refused_time(row, time);
   Last& last = last_.find(row.track)->second;
   if (!refused) {

@@ -94,7 +94,7 @@ struct Data {
                   "angle_deg", e.angle_deg);
   }
 
-  static Json of(const Plan& plan) {
+  static Json of(const MapChart& plan) {
     Json json = object("kind", "plan", "title", plan.title, "x_label", plan.x_label, "y_label", plan.y_label, "traces",
                        plan.traces, "ellipses", plan.ellipses, "note", plan.note);
     if (!plan.focus.empty()) json["focus"] = of(plan.focus);

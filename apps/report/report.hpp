@@ -88,7 +88,7 @@ struct ErrorEllipse {
 };
 
 /// Traces in plan, of one scale in x and y; those with heights are shown in space as well.
-struct Plan {
+struct MapChart {
   std::string title{}, x_label{}, y_label{};
   std::vector<PlanTrace> traces{};
   std::vector<ErrorEllipse> ellipses{};
@@ -159,7 +159,7 @@ struct Words {
   bool folded = false;
 };
 
-using Panel = std::variant<LineChart, Plan, IntervalChart, HeatMap, ReportTable, Words>;
+using Panel = std::variant<LineChart, MapChart, IntervalChart, HeatMap, ReportTable, Words>;
 
 /// What is shown for one choice of a report's selector.
 struct View {

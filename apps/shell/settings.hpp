@@ -15,10 +15,9 @@ namespace sigmax::apps {
 
 /// The keys of a TOML file, overridden by `--set key=value` in their order, read by name and type.
 ///
-///     const Settings settings = Settings::read("himm.toml", {"sigma_w=5", "filter.imm.sigma_w=3", "lift=zero"});
-///     const double sigma_w = settings.get("sigma_w", 3.0);
-///     const Settings filters = settings.sub("filter");
-///     for (const auto& name : filters.names()) make(settings.overlaid_by(filters.sub(name)));
+///     const Settings settings = Settings::read("himm.toml", {"sigma_w=5", "filter.imm.sigma_w=3",
+///     "augmentation=zero"}); const double sigma_w = settings.get("sigma_w", 3.0); const Settings filters =
+///     settings.sub("filter"); for (const auto& name : filters.names()) make(settings.overlaid_by(filters.sub(name)));
 ///     settings.refuse_unknown();
 ///
 /// A value of `--set` is TOML in which words may stand without quotes. Each value comes back empty, or as the default,

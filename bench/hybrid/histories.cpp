@@ -252,7 +252,7 @@ std::unique_ptr<Runner> made(const Spec& spec, bool histories) {
   const double stays = fuzzy ? 1.0 : 1.0 - p, stays_too = fuzzy ? 1.0 : 1.0 - q;
   const Relation<Kind, Kind> transition{mode, mode, {{stays, p}, {q, stays_too}}};
   Interaction<Kind> interaction;
-  if (histories || spec.settings.count("e") > 0) interaction.lift = Lift::prior;
+  if (histories || spec.settings.count("e") > 0) interaction.augmentation = StateAugmentation::prior;
   interaction.entry.scales = scales_of(spec, interaction.entry.scales);
   interaction.entry.vertical = spec.number("v", interaction.entry.vertical);
   const Gaussian<9> nowhere{Vector<9>::Zero(), SquareMatrix<9>::Identity()};

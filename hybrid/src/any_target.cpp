@@ -14,7 +14,7 @@
 #include <sigmax/hybrid/mode_transition.hpp>
 #include <sigmax/hybrid/motion_choice.hpp>
 #include <sigmax/hybrid/second_order_multiple_model.hpp>
-#include <sigmax/hybrid/target_life.hpp>
+#include <sigmax/hybrid/track_manager.hpp>
 
 namespace sigmax {
 namespace {
@@ -30,7 +30,7 @@ ModeTransition<Kind> chosen_transition(const TargetChoice& choice) {
 template <ScalableUncertainty Kind>
 Interaction<Kind> chosen_interaction(const TargetChoice& choice) {
   Interaction<Kind> interaction;
-  interaction.lift = choice.lift;
+  interaction.augmentation = choice.augmentation;
   interaction.entry = choice.entry;
   interaction.output_tie = choice.output_tie;
   interaction.mixed_start = choice.scheme == Scheme::common_start ? MixedStart::common : MixedStart::of_each_mode;
@@ -42,14 +42,14 @@ Interaction<Kind> chosen_interaction(const TargetChoice& choice) {
   return interaction;
 }
 
-/// The start rule of a choice: an estimate for each model, or nothing as long as it wants more plots.
+/// The start rule of a choice: an estimate for each model, or nothing as long as it wants more detections.
 class ChosenStart {
  public:
   ChosenStart(const TargetChoice& choice, const std::vector<AnyModel>& models)
       : choice_(choice), nowhere_(detail::anywhere(models)) {}
 
-  std::optional<StartAt<Estimates>> operator()(std::span<const Plot> plots, std::size_t starts) const {
-    return choice_.start == StartRule::given && starts == 0 ? given(plots) : from_points(plots);
+  std::optional<StartAt<Estimates>> operator()(std::span<const Detection> detections, std::size_t starts) const {
+    return choice_.start == StartRule::given && starts == 0 ? given(detections) : from_points(detections);
   }
 
   /// An estimate of its size for every model, without meaning: what a filter holds before it starts.
@@ -74,16 +74,16 @@ class ChosenStart {
   }
 
   /// From the last three positions at different times.
-  std::optional<StartAt<Estimates>> from_points(std::span<const Plot> plots) const {
+  std::optional<StartAt<Estimates>> from_points(std::span<const Detection> detections) const {
     const int axes = choice_.axes;
     std::vector<std::pair<double, Gaussian<Eigen::Dynamic, 3>>> points;
-    for (const Plot& plot : plots) {
-      const auto position = plot.position<Eigen::Dynamic>();
+    for (const Detection& detection : detections) {
+      const auto position = detection.position<Eigen::Dynamic>();
       if (!position || position->size() != axes) continue;
-      if (!points.empty() && points.back().first == plot.time) points.pop_back();
-      points.emplace_back(plot.time, *position);
+      if (!points.empty() && points.back().first == detection.time) points.pop_back();
+      points.emplace_back(detection.time, *position);
     }
-    if (points.size() < 3) return from_bearings(plots);
+    if (points.size() < 3) return from_bearings(detections);
     const auto view = [&](std::size_t back) {
       const auto& [time, position] = points[points.size() - back];
       return detail::TimedView{time, detail::view(position)};
@@ -98,13 +98,13 @@ class ChosenStart {
   }
 
   /// From those seen from different places, as many as the models need, in the plane.
-  std::optional<StartAt<Estimates>> from_bearings(std::span<const Plot> plots) const {
+  std::optional<StartAt<Estimates>> from_bearings(std::span<const Detection> detections) const {
     if (choice_.axes != 2) return std::nullopt;
     std::vector<TimedBearing> bearings;
-    for (const Plot& plot : plots)
-      if (const auto* const sensor = plot.seen() ? plot.sensor().as<BearingSensor>() : nullptr)
-        bearings.push_back({plot.time, sensor->origin(), radians(plot.measurement().mean[0]),
-                            radians(std::sqrt(plot.measurement().covariance[0]))});
+    for (const Detection& detection : detections)
+      if (const auto* const sensor = detection.seen() ? detection.sensor().as<BearingSensor>() : nullptr)
+        bearings.push_back({detection.time, sensor->origin(), radians(detection.measurement().mean[0]),
+                            radians(std::sqrt(detection.measurement().covariance[0]))});
     const bool accelerates = std::ranges::any_of(
         choice_.motions, [](const MotionChoice& motion) { return motion.known().derivatives == 3; });
     double wide_mean[6], wide_covariance[36], narrow_mean[4], narrow_covariance[16];
@@ -125,10 +125,10 @@ class ChosenStart {
                               })};
   }
 
-  /// A given start without a time waits for the second plot: it is one step before the first.
-  std::optional<StartAt<Estimates>> given(std::span<const Plot> plots) const {
-    if (!choice_.start_time_s && plots.size() < 2) return std::nullopt;
-    const double time = choice_.start_time_s ? *choice_.start_time_s : 2.0 * plots[0].time - plots[1].time;
+  /// A given start without a time waits for the second detection: it is one step before the first.
+  std::optional<StartAt<Estimates>> given(std::span<const Detection> detections) const {
+    if (!choice_.start_time_s && detections.size() < 2) return std::nullopt;
+    const double time = choice_.start_time_s ? *choice_.start_time_s : 2.0 * detections[0].time - detections[1].time;
     return StartAt<Estimates>{time, estimates([&](int n, EstimateAt<double>& own) {
                                 for (int k = 0; k < n; ++k) {  // what is given always speaks of three axes
                                   const auto place = static_cast<std::size_t>(k / choice_.axes * 3 + k % choice_.axes);
@@ -162,7 +162,7 @@ std::unique_ptr<MultipleModelFilter<Kind>> chosen_filter(const TargetChoice& cho
 template <ScalableUncertainty Kind>
 struct Followed {
   std::unique_ptr<MultipleModelFilter<Kind>> filter;
-  detail::TargetLife<Kind> life;
+  detail::TrackManager<Kind> life;
 
   Followed(const TargetChoice& choice, const std::vector<AnyModel>& models, const ChosenStart& start)
       : filter(chosen_filter<Kind>(choice, models, start.nowhere())), life(*filter, start, choice.rules) {}
@@ -179,36 +179,37 @@ AnyFollowed followed(const TargetChoice& choice) {
   return AnyFollowed(std::in_place_index<0>, choice, models, start);
 }
 
-/// The sensor of a plot that has one; a branch here is all that a new one needs beside its name in AnyPlot. Throws
-/// std::invalid_argument if the numbers of the plot do not fit it.
-AnySensor chosen_sensor(const AnyPlot& plot, int axes) {
-  using enum AnyPlot::Sensor;
-  if (plot.size < 1 || plot.size > max_measurement_size)
-    throw std::invalid_argument("a plot has " + std::to_string(plot.size) + " measured quantities; expected 1 to 6");
-  if (plot.sensor == components)
-    return ComponentSensor<max_measurement_size>(std::span(plot.places).first(static_cast<std::size_t>(plot.size)),
-                                                 axes);
-  if (axes == 1 && plot.sensor != position)
-    throw std::invalid_argument("along one axis a plot is a position or components; a radar needs a plane");
-  const Vector<3> origin(plot.origin.data());
-  if (plot.sensor == polar && axes == 3 && plot.size == 2) return SlantSensor(origin);
-  const int expected = plot.sensor == bearing ? 1 : plot.sensor == doppler ? axes + 1 : axes;
-  if (plot.size != expected)
-    throw std::invalid_argument("a plot has " + std::to_string(plot.size) + " measured quantities; expected " +
-                                std::to_string(expected));
-  const Vector<2> below(plot.origin.data());
-  if (plot.sensor == bearing) return BearingSensor(below);
-  if (plot.sensor == polar && axes == 2) return PolarSensor<2>(below);
-  if (plot.sensor == polar) return PolarSensor<3>(origin);
-  if (plot.sensor == doppler && axes == 2) return DopplerSensor<2>(below);
-  if (plot.sensor == doppler) return DopplerSensor<3>(origin);
+/// The sensor of a detection that has one; a branch here is all that a new one needs beside its name in AnyDetection.
+/// Throws std::invalid_argument if the numbers of the detection do not fit it.
+AnySensor chosen_sensor(const AnyDetection& detection, int axes) {
+  using enum AnyDetection::Sensor;
+  if (detection.size < 1 || detection.size > max_measurement_size)
+    throw std::invalid_argument("a detection has " + std::to_string(detection.size) +
+                                " measured quantities; expected 1 to 6");
+  if (detection.sensor == components)
+    return ComponentSensor<max_measurement_size>(
+        std::span(detection.places).first(static_cast<std::size_t>(detection.size)), axes);
+  if (axes == 1 && detection.sensor != position)
+    throw std::invalid_argument("along one axis a detection is a position or components; a radar needs a plane");
+  const Vector<3> origin(detection.origin.data());
+  if (detection.sensor == polar && axes == 3 && detection.size == 2) return SlantSensor(origin);
+  const int expected = detection.sensor == bearing ? 1 : detection.sensor == doppler ? axes + 1 : axes;
+  if (detection.size != expected)
+    throw std::invalid_argument("a detection has " + std::to_string(detection.size) +
+                                " measured quantities; expected " + std::to_string(expected));
+  const Vector<2> below(detection.origin.data());
+  if (detection.sensor == bearing) return BearingSensor(below);
+  if (detection.sensor == polar && axes == 2) return PolarSensor<2>(below);
+  if (detection.sensor == polar) return PolarSensor<3>(origin);
+  if (detection.sensor == doppler && axes == 2) return DopplerSensor<2>(below);
+  if (detection.sensor == doppler) return DopplerSensor<3>(origin);
   return detail::position_sensor(axes);
 }
 
-Plot chosen_plot(const AnyPlot& plot, int axes) {
-  if (plot.sensor == AnyPlot::Sensor::none) return Plot(plot.time, plot.tag);
-  return Plot(plot.time, detail::ConstView{plot.z.data(), plot.covariance.data(), plot.size}, chosen_sensor(plot, axes),
-              plot.tag);
+Detection chosen_detection(const AnyDetection& detection, int axes) {
+  if (detection.sensor == AnyDetection::Sensor::none) return Detection(detection.time, detection.tag);
+  return Detection(detection.time, detail::ConstView{detection.z.data(), detection.covariance.data(), detection.size},
+                   chosen_sensor(detection, axes), detection.tag);
 }
 
 const TargetChoice& checked(const TargetChoice& choice) {
@@ -269,10 +270,10 @@ AnyTarget& AnyTarget::operator=(AnyTarget other) noexcept {
 }
 AnyTarget::~AnyTarget() = default;
 
-Verdict AnyTarget::take(const AnyPlot& plot, const Stepped& stepped) {
-  const Plot own = chosen_plot(plot, chosen_->axes);
+Verdict AnyTarget::take(const AnyDetection& detection, const Stepped& stepped) {
+  const Detection own = chosen_detection(detection, chosen_->axes);
   return chosen_->visit([&](auto& target) {
-    return target.life.take(*target.filter, own, [&](const Plot& taken, bool is_start) {
+    return target.life.take(*target.filter, own, [&](const Detection& taken, bool is_start) {
       chosen_->compared = !is_start && taken.seen();
       if (stepped) stepped(taken.tag, is_start);
     });
@@ -348,7 +349,7 @@ std::vector<ModeStay> AnyTarget::explained() const {
   return stays;
 }
 
-void AnyTarget::follow(std::span<const AnyPlot> plots, const std::function<void(const TargetPoint&)>& visit) {
+void AnyTarget::follow(std::span<const AnyDetection> detections, const std::function<void(const TargetPoint&)>& visit) {
   TargetPoint point;
   const auto stepped = [&](std::size_t tag, bool is_start) {
     output(point);
@@ -356,7 +357,7 @@ void AnyTarget::follow(std::span<const AnyPlot> plots, const std::function<void(
     point.is_start = is_start;
     visit(point);
   };
-  for (const AnyPlot& plot : plots) take(plot, stepped);
+  for (const AnyDetection& detection : detections) take(detection, stepped);
 }
 
 }  // namespace sigmax

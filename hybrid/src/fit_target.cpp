@@ -8,23 +8,23 @@
 
 namespace sigmax {
 
-std::vector<double> log_scores(const TargetChoice& choice, std::span<const AnyPlot> plots,
+std::vector<double> log_scores(const TargetChoice& choice, std::span<const AnyDetection> detections,
                                const std::function<void(const TargetPoint&)>& visit,
-                               const std::function<bool(const AnyPlot&)>& starts) {
-  std::vector<double> scores(plots.size(), std::numeric_limits<double>::quiet_NaN());
+                               const std::function<bool(const AnyDetection&)>& starts) {
+  std::vector<double> scores(detections.size(), std::numeric_limits<double>::quiet_NaN());
   AnyTarget target(choice);
   const auto see = [&](const TargetPoint& now) {
     if (!now.is_start && now.log_score) scores[now.tag] = *now.log_score;
     if (visit) visit(now);
   };
-  for (const AnyPlot& plot : plots) {
-    if (plot.tag >= plots.size())
-      throw std::invalid_argument("the tag " + std::to_string(plot.tag) + " among " + std::to_string(plots.size()) +
-                                  " plots; expected their numbers from 0 on");
-    if (!target.running() && starts && !starts(plot)) continue;
-    if (target.starts() > 0 && plot.sensor != AnyPlot::Sensor::none)
-      scores[plot.tag] = -std::numeric_limits<double>::infinity();  // unless it is a step
-    target.follow({&plot, 1}, see);
+  for (const AnyDetection& detection : detections) {
+    if (detection.tag >= detections.size())
+      throw std::invalid_argument("the tag " + std::to_string(detection.tag) + " among " +
+                                  std::to_string(detections.size()) + " detections; expected their numbers from 0 on");
+    if (!target.running() && starts && !starts(detection)) continue;
+    if (target.starts() > 0 && detection.sensor != AnyDetection::Sensor::none)
+      scores[detection.tag] = -std::numeric_limits<double>::infinity();  // unless it is a step
+    target.follow({&detection, 1}, see);
   }
   return scores;
 }

@@ -94,9 +94,9 @@ double FixedIntervalSmoother<Kind>::smooth_pair(const Estimates& filtered, std::
   detail::Scratch<512> A(n * 2 * n);
   const View start{mean, start_covariance, n};  // the estimate of i in the components of j
   const auto& map = components_.of_model(j)[i];
-  const Estimates& lenders = interaction_.lift == Lift::prior ? entries_ : filtered;
+  const Estimates& lenders = interaction_.augmentation == StateAugmentation::prior ? entries_ : filtered;
   const detail::Mixture::Part part{of_i, &map};
-  detail::Mixture{lenders.view(j), {&part, 1}, interaction_.lift}.read(part, start);
+  detail::Mixture{lenders.view(j), {&part, 1}, interaction_.augmentation}.read(part, start);
   detail::linearised_step(model.ref(), start, dt_, moved, F, Q);
 
   int noises = 0;  // the columns of A

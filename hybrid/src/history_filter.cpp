@@ -33,7 +33,7 @@ HistoriesOfModes<Kind>::HistoriesOfModes(const std::vector<AnyModel>& models, Mo
                                          const Interaction<Kind>& interaction)
     : Filter(models, std::move(transition), start, interaction),
       rules_(rules),
-      branches_(interaction.lift == Lift::prior ? interaction.entry.scales.size() : 1),
+      branches_(interaction.augmentation == StateAugmentation::prior ? interaction.entry.scales.size() : 1),
       entries_(branches_, start),
       log_transition_(modes(), modes()),
       lacks_(modes() * modes()),
@@ -127,7 +127,7 @@ void HistoriesOfModes<Kind>::output(const State& state, View result) const {
     parts[h] = {set.view(h), this->components_.of_all() + set[h].mode};
   }
   for (std::size_t h = 0; h < set.size(); ++h) weights[h] /= total;
-  detail::match_moments({receiver, {parts.data(), set.size()}, interaction_.lift}, weights, weights, result);
+  detail::match_moments({receiver, {parts.data(), set.size()}, interaction_.augmentation}, weights, weights, result);
 }
 
 template <ScalableUncertainty Kind>
@@ -174,9 +174,10 @@ void HistoriesOfModes<Kind>::branch(double dt, HistorySet& predicted) {
       this->predict_model(j, before.view(parent), dt, estimate);
       continue;
     }
-    const Estimates& lenders = interaction_.lift == Lift::prior ? entries_[candidates_[h].entry] : estimates();
+    const Estimates& lenders =
+        interaction_.augmentation == StateAugmentation::prior ? entries_[candidates_[h].entry] : estimates();
     const detail::Mixture::Part part{before.view(parent), this->correspondences(j) + l};
-    detail::Mixture{lenders.view(j), {&part, 1}, interaction_.lift}.read(part, estimate);
+    detail::Mixture{lenders.view(j), {&part, 1}, interaction_.augmentation}.read(part, estimate);
     this->predict_model(j, estimate, dt, estimate);
   }
 }

@@ -29,7 +29,7 @@ Correspondence::Correspondence(const std::vector<std::string>& receiver, const s
 }
 
 void Mixture::mean_of(const Part& part, double* mean) const {
-  const double lacking = lift == Lift::unbiased ? 1.0 : 0.0;
+  const double lacking = augmentation == StateAugmentation::unbiased ? 1.0 : 0.0;
   for (int i = 0; i < size(); ++i) {
     const int at = part.map ? part.map->in_source[static_cast<std::size_t>(i)] : i;
     mean[i] = at >= 0 ? part.estimate.mean[at] : lacking * receiver.mean[i];
@@ -51,10 +51,10 @@ void Mixture::add_covariance(const Part& part, double weight, double* covariance
     if (at >= 0) {
       for (int i = k; i < n; ++i)
         if (in_source[i] >= 0) column[i] += weight * P[in_source[i] + at * m];
-    } else if (lift == Lift::unbiased) {
+    } else if (augmentation == StateAugmentation::unbiased) {
       for (int i = k; i < n; ++i)
         if (in_source[i] < 0) column[i] += weight * receiver.covariance[i + k * n];
-    } else if (lift != Lift::zero) {
+    } else if (augmentation != StateAugmentation::zero) {
       column[k] += weight * receiver.covariance[k + k * n];
     }
   }

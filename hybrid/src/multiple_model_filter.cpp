@@ -69,7 +69,7 @@ template <ScalableUncertainty Kind>
 detail::Mixture MultipleModelFilter<Kind>::mixture(ConstView receiver, const detail::Correspondence* maps,
                                                    const Estimates& estimates, detail::Mixture::Part* parts) const {
   for (std::size_t l = 0; l < modes(); ++l) parts[l] = {estimates.view(l), maps + l};
-  return {receiver, {parts, modes()}, interaction_.lift};
+  return {receiver, {parts, modes()}, interaction_.augmentation};
 }
 
 template <ScalableUncertainty Kind>

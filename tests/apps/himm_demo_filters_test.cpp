@@ -65,7 +65,7 @@ TEST(HimmDemoFilters, EveryNamedOneEqualsThePlainRestatement) {
   for (const auto& [name, options, independent] : named_filters()) {
     SCOPED_TRACE(name);
     const auto filter = restated(options, {}, 3, independent ? restatement::identity(2) : restatement::Matrix{});
-    expect_restated(of_filter(found, name), filter, start_time, plots(points));
+    expect_restated(of_filter(found, name), filter, start_time, detections(points));
   }
   // The one that the restatement does not know: the estimate of the more likely mode, with the IMM's weights.
   const auto imm = of_filter(found, "imm");

@@ -29,7 +29,7 @@ TEST(HimmDemoHistories, EachNamedOneEqualsThePlainRestatement) {
         2, 2, fuzzy ? std::vector{1.0, 0.017, 0.071, 1.0} : std::vector{0.983, 0.017, 0.071, 0.929});
     const restatement::HistoryFilter filter({restatement::dwna(3, 3.0), restatement::dwpa(3, 0.4)}, transition,
                                             {restated_start(6), restated_start(9)}, options);
-    expect_restated(of_filter(found, name), filter, start_time, plots(points), 1e-8);
+    expect_restated(of_filter(found, name), filter, start_time, detections(points), 1e-8);
   }
 }
 

@@ -59,7 +59,7 @@ Position converted(const std::array<double, 3>& z, const Sigma& sigma, std::size
 }
 
 /// Every estimate of both filters equals that of the plain restatement with the default settings.
-void expect_by_default(const std::string& estimates, const std::vector<Plot>& all, std::size_t axes) {
+void expect_by_default(const std::string& estimates, const std::vector<Detection>& all, std::size_t axes) {
   using restatement::Kind, restatement::Matrix;
   const auto found = rows(estimates);
   const double T12 = all[1].time - all[0].time, T23 = all[2].time - all[1].time;
@@ -67,7 +67,7 @@ void expect_by_default(const std::string& estimates, const std::vector<Plot>& al
                                                std::tuple{"himm", Kind::himm, Matrix(2, 2, {1, 0.5, 0.5, 1})}}) {
     const restatement::Options options{.kind = kind,
                                        .mixed_covariance = restatement::MixedCovariance::own_recentred,
-                                       .lift = restatement::Lift::borrowed_variance};
+                                       .augmentation = restatement::StateAugmentation::borrowed_variance};
     const restatement::Filter filter({restatement::dwna(axes, 3.0), restatement::dwpa(axes, 3.0)}, transition,
                                      {restatement::two_point_start(*all[1].z, *all[2].z, T23),
                                       restatement::three_point_start(*all[0].z, *all[1].z, *all[2].z, T12, T23)},
@@ -99,7 +99,7 @@ TEST_P(RadarInput, IsConvertedAsTheStandardConversionHasIt) {
   const Sigma sigma{20.0, 0.3, 0.2};
   std::mt19937_64 engine(5);
   std::string text = axes == 3 ? "time_s,range_m,azimuth_deg,elevation_deg\n" : "time_s,range_m,azimuth_deg\n";
-  std::vector<Plot> expected;
+  std::vector<Detection> expected;
   std::size_t k = 0;
   for (const auto& [time, x] : flight(axes)) {
     if (++k % 11 == 0) {  // missed
@@ -161,7 +161,7 @@ TEST(HimmDemoRecording, EachSensorOfAFileHasItsAccuracy) {
     std::normal_distribution<double> noise(0.0, 5.0);
     std::string text = axes == 3 ? "time_s,sensor,x_m,y_m,z_m,range_m,azimuth_deg,elevation_deg\n"
                                  : "time_s,sensor,x_m,y_m,range_m,azimuth_deg\n";
-    std::vector<Plot> expected;
+    std::vector<Detection> expected;
     std::size_t k = 0;
     for (const auto& [time, x] : flight(axes)) {
       if (k % 3 == 0) {
@@ -208,7 +208,7 @@ TEST(HimmDemoRecording, EachRowMayTellItsWholeCovariance) {
     std::normal_distribution<double> noise;
     std::string text = axes == 3 ? "time_s,x_m,y_m,z_m,cov_xx,cov_xy,cov_yy_m2,cov_xz,cov_yz,cov_zz_m2\n"
                                  : "time_s,x_m,y_m,cov_xx,cov_xy,cov_yy_m2\n";
-    std::vector<Plot> expected;
+    std::vector<Detection> expected;
     for (const auto& [time, x] : flight(axes)) {
       Position z{restatement::Vector(axes), restatement::Matrix(axes, axes)};
       text += exact(time);

@@ -15,7 +15,7 @@ Report example() {
   chart.curves.push_back({nasty, nasty, {1.0, std::nan(""), 1.0 / 3.0}});
   chart.shaded = {{1.5, 2.5, nasty}};
   chart.expected = {{0.5, 0.7, std::string(nasty) + "!"}};
-  Plan plan{.title = nasty, .x_label = nasty, .y_label = nasty, .traces = {}};
+  MapChart plan{.title = nasty, .x_label = nasty, .y_label = nasty, .traces = {}};
   plan.traces.push_back({.name = nasty, .group = nasty, .x = {0, 1}, .y = {0, 1}, .z = {0, 1}});
   plan.ellipses.push_back({nasty, 0.5, 0.5, 0.2, 0.1, 30.0});
   ResultTable table({{.key = "name", .header = nasty, .align = Align::left}, {.key = "value", .header = nasty}});
@@ -179,7 +179,7 @@ TEST_F(ReportPage, OfSweepIsAMapOfConditionsAndFilters) {
   const auto sweep = [&](const std::string& out, const Arguments& more) {
     const auto small = words(
         "sweep --quiet --scenario 2 --filters imm,himm_own --probability 0.05 --possibility 0.2,0.5 --sigma-w 3 "
-        "--lift zero --mismatch 1,2 --period 2 --strength 1 --length 0.5,1 --tuning-runs 1 --runs 2 --out");
+        "--augmentation zero --mismatch 1,2 --period 2 --strength 1 --length 0.5,1 --tuning-runs 1 --runs 2 --out");
     program::succeeds(SIGMAX_HIMM_DEMO, small + Arguments{directory.path() / out} + more);
     return directory.path() / out;
   };
@@ -239,7 +239,7 @@ TEST_F(ReportPage, OfAFilterThatKeepsHistoriesShowsTheBestOne) {
   expect_numbers_of_the_summary();
 }
 
-/// Ships that a gate turns some plots away from, one of them with a name that is no name.
+/// Ships that a gate turns some detections away from, one of them with a name that is no name.
 TEST_F(ReportPage, OfTracksHasAViewForEachWithWhatWasTurnedAway) {
   std::ofstream file(directory.path() / "ships.csv");
   file << "time_s,latitude_deg,longitude_deg,ship\n";

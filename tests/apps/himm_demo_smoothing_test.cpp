@@ -20,7 +20,7 @@ TEST(HimmDemoSmoothing, EqualsThePlainRestatementAtEveryStep) {
     restatement::Smoother smoother{restated(options)};
     std::vector<double> nis;
     double time = start_time;
-    for (const auto& [now, z] : plots(points)) {
+    for (const auto& [now, z] : detections(points)) {
       smoother.step(now - time, z->z, z->R);
       nis.push_back(*smoother.nis());
       time = now;
@@ -105,7 +105,7 @@ TEST(HimmDemoSmoothing, IsBetterThanTheFilterInEveryPhaseOfThePaper) {
   program::succeeds(SIGMAX_HIMM_DEMO,
                     Arguments{"simulate", "--runs", "20", "--quiet", "--out", out} +
                         setting({"filters=[imm,himm,imm_smoothed,himm_smoothed]", "filter.imm_smoothed.smooth=true",
-                                 "filter.himm_smoothed.smooth=true", "lift=borrowed_variance"}));
+                                 "filter.himm_smoothed.smooth=true", "augmentation=borrowed_variance"}));
   const auto found = rows(contents(out / "filters.csv"));
   for (const std::string name : {"imm", "himm"})
     for (const char* phase : {"rmse_before_m", "rmse_during_m", "rmse_after_m"})

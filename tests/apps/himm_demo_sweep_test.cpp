@@ -6,7 +6,7 @@ namespace himm_demo_sweep_test {
 
 /// Nine conditions, two filters, of which the noises are searched.
 const Arguments small = words(
-    "sweep --scenario 2 --filters imm,himm_own --probability 0.05 --possibility 0.5 --sigma-w 3,9 --lift zero "
+    "sweep --scenario 2 --filters imm,himm_own --probability 0.05 --possibility 0.5 --sigma-w 3,9 --augmentation zero "
     "--tuning-runs 4 --runs 40 --mismatch 1,2");
 
 /// The row of tuned.csv about a filter where nothing is mismatched.
@@ -38,7 +38,7 @@ class HimmDemoSweep : public InDirectory {
  protected:
   void SetUp() override {
     const auto least =
-        words("sweep --quiet --scenario 2 --filters imm --runs 2 --tuning-runs 1 --sigma-w 3 --lift zero");
+        words("sweep --quiet --scenario 2 --filters imm --runs 2 --tuning-runs 1 --sigma-w 3 --augmentation zero");
     if (program::run(SIGMAX_HIMM_DEMO, least + words(alone)).output.find("without an optimiser") != std::string::npos)
       GTEST_SKIP() << "built without NLopt";
   }
@@ -47,34 +47,35 @@ class HimmDemoSweep : public InDirectory {
 TEST_F(HimmDemoSweep, TheScoreIsThatOfSimulateAndNoCornerHasABetterOne) {
   campaign(directory.path() / "sweep",
            words("sweep --scenario 2 --filters imm,himm_own --tuning-runs 10 --runs 4 --probability 0.05 "
-                 "--possibility 0.2,0.5 --sigma-w 1,9 --lift zero,unbiased" +
+                 "--possibility 0.2,0.5 --sigma-w 1,9 --augmentation zero,unbiased" +
                  alone));
   const auto row = tuned(directory.path() / "sweep", "himm_own");
   const auto score = [&](const std::string& leaving, const std::string& returning, const std::string& dwna,
-                         const std::string& dwpa, const std::string& lift) {
+                         const std::string& dwpa, const std::string& augmentation) {
     const auto results =
         simulated(directory.path() / "simulate",
                   {"filters=himm_own", "transition_possibility=[[1," + leaving + "],[" + returning + ",1]]",
-                   "sigma_w=[" + dwna + "," + dwpa + "]", "lift=" + lift});
+                   "sigma_w=[" + dwna + "," + dwpa + "]", "augmentation=" + augmentation});
     return score_of(results, "himm_own");
   };
   const double best = std::stod(row.at("tuning_score"));
-  EXPECT_NEAR(
-      score(row.at("leaving"), row.at("returning"), row.at("sigma_w_dwna"), row.at("sigma_w_dwpa"), row.at("lift")),
-      best, 1e-9);
+  EXPECT_NEAR(score(row.at("leaving"), row.at("returning"), row.at("sigma_w_dwna"), row.at("sigma_w_dwpa"),
+                    row.at("augmentation")),
+              best, 1e-9);
   for (const std::string leaving : {"0.2", "0.5"})
     for (const std::string returning : {"0.2", "0.5"})
       for (const std::string dwna : {"1", "9"})
         for (const std::string dwpa : {"1", "9"})
-          for (const std::string lift : {"zero", "unbiased"})
-            EXPECT_GE(score(leaving, returning, dwna, dwpa, lift), best - 1e-4) << leaving << returning << dwna << dwpa;
+          for (const std::string augmentation : {"zero", "unbiased"})
+            EXPECT_GE(score(leaving, returning, dwna, dwpa, augmentation), best - 1e-4)
+                << leaving << returning << dwna << dwpa;
 }
 
 TEST_F(HimmDemoSweep, ItStopsAtTheEndOfARangeAndSaysSo) {
-  const auto said =
-      campaign(directory.path(), words("sweep --scenario 1 --tuning-runs 4 --runs 2 --sigma-w 3 --lift zero --filters "
-                                       "imm,himm_own_recentred --probability 0.16,0.32 --possibility 0.4,0.8" +
-                                       alone));
+  const auto said = campaign(
+      directory.path(), words("sweep --scenario 1 --tuning-runs 4 --runs 2 --sigma-w 3 --augmentation zero --filters "
+                              "imm,himm_own_recentred --probability 0.16,0.32 --possibility 0.4,0.8" +
+                              alone));
   EXPECT_TRUE(says(said, {"2 of 2 tuned filters have a number at an end of its range"}));
   const auto row = tuned(directory.path(), "imm");
   EXPECT_NEAR(std::stod(row.at("leaving")), 0.16, 1e-3);
@@ -83,7 +84,7 @@ TEST_F(HimmDemoSweep, ItStopsAtTheEndOfARangeAndSaysSo) {
 
 TEST_F(HimmDemoSweep, TheyAreJudgedOnOtherRuns) {
   const auto one =
-      words("sweep --scenario 2 --filters imm --probability 0.05 --sigma-w 3 --lift zero --runs 6" + alone);
+      words("sweep --scenario 2 --filters imm --probability 0.05 --sigma-w 3 --augmentation zero --runs 6" + alone);
   const auto early = directory.path() / "early", all = directory.path() / "all";
   campaign(early, one + words("--tuning-runs 4"));
   campaign(all, one + words("--tuning-runs 10"));

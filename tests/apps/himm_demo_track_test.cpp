@@ -17,22 +17,27 @@ struct Case {
 std::vector<Case> cases() {
   using namespace restatement;
   std::vector<Case> result;
-  const std::map<std::string, Lift> lifts = {
-      {"zero", Lift::zero}, {"borrowed_variance", Lift::borrowed_variance}, {"unbiased", Lift::unbiased}};
+  const std::map<std::string, StateAugmentation> augmentations = {
+      {"zero", StateAugmentation::zero},
+      {"borrowed_variance", StateAugmentation::borrowed_variance},
+      {"unbiased", StateAugmentation::unbiased}};
   const std::map<std::string, Weights> weights = {{"correct", Weights::correct}, {"released", Weights::released}};
   const std::map<std::string, MixedCovariance> readings = {{"selected", MixedCovariance::selected},
                                                            {"own", MixedCovariance::own},
                                                            {"own_recentred", MixedCovariance::own_recentred},
                                                            {"released", MixedCovariance::released}};
-  for (const auto& [lift, lift_value] : lifts) {
+  for (const auto& [augmentation, augmentation_value] : augmentations) {
     for (const auto& [name, value] : weights) {
-      const Options options{.mixing_weights = value, .lift = lift_value};
-      result.push_back({"imm_" + name + "_" + lift, {"filters=imm", "imm_mixing=" + name, "lift=" + lift}, options});
+      const Options options{.mixing_weights = value, .augmentation = augmentation_value};
+      result.push_back({"imm_" + name + "_" + augmentation,
+                        {"filters=imm", "imm_mixing=" + name, "augmentation=" + augmentation},
+                        options});
     }
     for (const auto& [name, value] : readings) {
-      const Options options{.kind = Kind::himm, .mixed_covariance = value, .lift = lift_value};
-      result.push_back(
-          {"himm_" + name + "_" + lift, {"filters=himm", "mixed_covariance=" + name, "lift=" + lift}, options});
+      const Options options{.kind = Kind::himm, .mixed_covariance = value, .augmentation = augmentation_value};
+      result.push_back({"himm_" + name + "_" + augmentation,
+                        {"filters=himm", "mixed_covariance=" + name, "augmentation=" + augmentation},
+                        options});
     }
   }
   const Options ties{.kind = Kind::himm,
@@ -40,7 +45,7 @@ std::vector<Case> cases() {
                      .mixing_tie = Tie::last,
                      .output_tie = Tie::first};
   result.push_back(
-      {"himm_ties_as_released", {"filters=himm", "mixing_tie=last", "output_tie=first", "lift=zero"}, ties});
+      {"himm_ties_as_released", {"filters=himm", "mixing_tie=last", "output_tie=first", "augmentation=zero"}, ties});
   for (const std::string start : {"points", "released"})
     for (const std::size_t axes : {2U, 3U})
       for (const auto& [filter, kind] : {std::pair{"imm", Kind::imm}, {"himm", Kind::himm}})
@@ -58,7 +63,7 @@ TEST_P(Track, EqualsThePlainRestatementAtEveryStep) {
   const Case& c = GetParam();
   const auto points = accelerating_target(c.axes);
   const auto found = estimates(csv(points), given + Arguments{"start=" + c.start, "sigma_position_m=10"} + c.sets);
-  const auto all = plots(points);
+  const auto all = detections(points);
   const double T12 = all[1].time - all[0].time, T23 = all[2].time - all[1].time;
   std::vector<restatement::State> starts = {restated_start(2 * c.axes), restated_start(3 * c.axes)};
   if (c.start == "points")
@@ -70,7 +75,7 @@ TEST_P(Track, EqualsThePlainRestatementAtEveryStep) {
   }
   const bool begins = c.start == "given";
   expect_restated(found, restated(c.options, starts, c.axes), begins ? start_time : all[2].time,
-                  plots(points, begins ? 0 : 3));
+                  detections(points, begins ? 0 : 3));
 }
 
 INSTANTIATE_TEST_SUITE_P(HimmDemo, Track, testing::ValuesIn(cases()), [](const auto& test) { return test.param.name; });
@@ -117,7 +122,7 @@ TEST_F(HimmDemoTrack, WhatPrintConfigPrintsReadsBackAsTheSame) {
     const auto file = directory.write("rows.csv", "time_s,x_m,y_m\n0,1,2\n");
     return program::succeeds(SIGMAX_HIMM_DEMO, Arguments{"track", file, "--print-config"} + more).output;
   };
-  const auto first = print(setting({"filter.himm.sigma_w=5", "lift=unbiased"}));
+  const auto first = print(setting({"filter.himm.sigma_w=5", "augmentation=unbiased"}));
   EXPECT_EQ(print({"--config", directory.write("settings.toml", first)}), first);
   EXPECT_TRUE(says(first, {"sigma_w = [5.0, 5.0]"}));
 }

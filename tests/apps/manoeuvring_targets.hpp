@@ -21,8 +21,8 @@ inline std::string csv(const std::vector<Point>& points) {
 }
 
 /// As a restatement takes them, with an accuracy of 10 m.
-inline std::vector<Plot> plots(const std::vector<Point>& points, std::size_t from = 0) {
-  std::vector<Plot> result;
+inline std::vector<Detection> detections(const std::vector<Point>& points, std::size_t from = 0) {
+  std::vector<Detection> result;
   for (std::size_t k = from; k < points.size(); ++k)
     result.push_back({points[k].time, {{points[k].z, 100.0 * restatement::identity(points[k].z.size())}}});
   return result;
@@ -99,7 +99,7 @@ inline restatement::Filter restated(const restatement::Options& options, std::ve
 inline restatement::Options usual(restatement::Kind kind) {
   restatement::Options options;
   options.kind = kind;
-  options.lift = restatement::Lift::borrowed_variance;
+  options.augmentation = restatement::StateAugmentation::borrowed_variance;
   options.mixed_covariance = restatement::MixedCovariance::own_recentred;
   return options;
 }

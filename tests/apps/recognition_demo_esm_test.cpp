@@ -38,7 +38,7 @@ std::vector<Inference> inferences() {
 }
 
 /// What is believed after one more reading: b(c) ⊗ ⊕_f L(z|f) L(f|c), divided by its ⊕.
-Numbers believed(const Inference& inference, const Numbers& before, std::size_t reading) {
+Numbers with_sensor_noise(const Inference& inference, const Numbers& before, std::size_t reading) {
   Numbers after;
   for (std::size_t c = 0; c < before.size(); ++c) {
     double likelihood = 0.0;
@@ -76,7 +76,7 @@ TEST(RecognitionDemoEsm, EveryClassifierEqualsPlainLoopsOverTheReadingsOfAllRuns
       Numbers& of_runs = accuracy[inference.name];
       of_runs.resize(15, 0.0);
       for (std::size_t k = 0; k < 15; ++k) {
-        belief = believed(inference, belief, readings[k]);
+        belief = with_sensor_noise(inference, belief, readings[k]);
         of_runs[k] += credit(belief, truth) / 60.0;
       }
     }

@@ -66,20 +66,22 @@ inline void expect_row(const TextRow& row, const restatement::State& state, std:
 }
 
 /// A measurement of a recording, or a row without one.
-struct Plot {
+struct Detection {
   double time;
   std::optional<restatement::Position> z;
 };
 
-/// Fails unless these rows of estimates.csv are what a restated filter of DWNA and DWPA says of the plots after `time`.
+/// Fails unless these rows of estimates.csv are what a restated filter of DWNA and DWPA says of the detections after
+/// `time`.
 template <class Filter>
-void expect_restated(const std::vector<TextRow>& found, Filter filter, double time, const std::vector<Plot>& plots,
-                     double tolerance = 1e-9) {
-  ASSERT_EQ(found.size(), plots.size());
-  const auto seen = std::find_if(plots.begin(), plots.end(), [](const Plot& plot) { return plot.z.has_value(); });
+void expect_restated(const std::vector<TextRow>& found, Filter filter, double time,
+                     const std::vector<Detection>& detections, double tolerance = 1e-9) {
+  ASSERT_EQ(found.size(), detections.size());
+  const auto seen = std::find_if(detections.begin(), detections.end(),
+                                 [](const Detection& detection) { return detection.z.has_value(); });
   const std::size_t axes = seen->z->z.size();
-  for (std::size_t k = 0; k < plots.size(); ++k) {
-    const auto& [now, z] = plots[k];
+  for (std::size_t k = 0; k < detections.size(); ++k) {
+    const auto& [now, z] = detections[k];
     const TextRow& row = found[k];
     SCOPED_TRACE("row " + std::to_string(k) + " of " + row.at("filter"));
     if (z)

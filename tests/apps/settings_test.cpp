@@ -28,7 +28,7 @@ TEST(Settings, ReadsEveryTypeFromAFile) {
 sigma_w = 5
 start_time_s = -0.5
 quiet = true
-lift = "zero"
+augmentation = "zero"
 models = ["dwna", "dwpa"]
 origin = [52, 4.5, 0]
 transition = [[1, 0.5], [0.5, 1]]
@@ -36,7 +36,7 @@ transition = [[1, 0.5], [0.5, 1]]
   EXPECT_EQ(settings.get<double>("sigma_w"), 5.0);
   EXPECT_EQ(settings.get<double>("start_time_s"), -0.5);
   EXPECT_EQ(settings.get<bool>("quiet"), true);
-  EXPECT_EQ(settings.get<std::string>("lift"), "zero");
+  EXPECT_EQ(settings.get<std::string>("augmentation"), "zero");
   EXPECT_EQ(settings.get<Strings>("models"), (Strings{"dwna", "dwpa"}));
   EXPECT_EQ(settings.get<Numbers>("origin"), (Numbers{52, 4.5, 0}));
   EXPECT_EQ(settings.get<Numbers>("sigma_w"), Numbers{5});
@@ -130,9 +130,9 @@ TEST(Settings, RefusesMatricesThatAreNone) {
 }
 
 TEST(Settings, AChoiceIsOneOfItsNames) {
-  const Settings settings = from_sets({"lift=unbiased", "wrong=zerro"});
+  const Settings settings = from_sets({"augmentation=unbiased", "wrong=zerro"});
   const std::vector<std::string_view> names = {"zero", "borrowed_variance", "unbiased"};
-  EXPECT_EQ(settings.choice("lift", names, "zero"), "unbiased");
+  EXPECT_EQ(settings.choice("augmentation", names, "zero"), "unbiased");
   EXPECT_EQ(settings.choice("absent", names, "zero"), "zero");
   EXPECT_EQ(refusal([&] { settings.choice("wrong", names, "zero"); }),
             "--set wrong=zerro: key 'wrong': found the string 'zerro', expected one of zero, borrowed_variance, "
@@ -170,9 +170,10 @@ TEST(Settings, SetsThatAreNoneAreBadUsage) {
 }
 
 TEST(Settings, ASubTableOverlaysTheRest) {
-  const Settings settings = from_file(R"(
+  const Settings settings =
+      from_file(R"(
 sigma_w = 3
-lift = "zero"
+augmentation = "zero"
 [filter.imm]
 kind = "imm"
 sigma_w = 4
@@ -180,14 +181,14 @@ tau_s = 6
 [filter.himm]
 kind = "himm"
 )",
-                                      {"lift=unbiased", "filter.himm.sigma_w=5", "filter.slow.kind=himm", "tau_s=7"});
+                {"augmentation=unbiased", "filter.himm.sigma_w=5", "filter.slow.kind=himm", "tau_s=7"});
   const Settings filters = settings.sub("filter");
   EXPECT_EQ(filters.names(), (Strings{"himm", "imm", "slow"}));
 
   const Settings imm = settings.overlaid_by(filters.sub("imm"));
   EXPECT_EQ(imm.get<std::string>("kind"), "imm");
   EXPECT_EQ(imm.get<double>("sigma_w"), 4.0);
-  EXPECT_EQ(imm.get<std::string>("lift"), "unbiased");
+  EXPECT_EQ(imm.get<std::string>("augmentation"), "unbiased");
   EXPECT_EQ(imm.get<double>("tau_s"), 7.0);
 
   const Settings himm = settings.overlaid_by(filters.sub("himm"));
@@ -206,14 +207,14 @@ kind = "himm"
 TEST(Settings, RefusesKeysThatNobodyAskedFor) {
   const Settings settings = from_file("sigma_w = 5\nsgima_w = 5\n");
   settings.get<double>("sigma_w");
-  settings.get<std::string>("lift");
+  settings.get<std::string>("augmentation");
   EXPECT_EQ(refusal([&] { settings.refuse_unknown(); }), "c.toml:2:1: unknown key 'sgima_w'; did you mean 'sigma_w'?");
 
   const Settings far = from_sets({"colour=red"});
   far.get<double>("sigma_w");
-  far.get<std::string>("lift");
+  far.get<std::string>("augmentation");
   EXPECT_EQ(refusal([&] { far.refuse_unknown(); }),
-            "--set colour=red: unknown key 'colour'; the known ones are lift, sigma_w");
+            "--set colour=red: unknown key 'colour'; the known ones are augmentation, sigma_w");
   EXPECT_EQ(refusal([] { from_sets({"a=1"}).refuse_unknown(); }), "--set a=1: unknown key 'a'");
 }
 
@@ -223,9 +224,9 @@ TEST(Settings, RefusesUnknownKeysOfASubTable) {
   EXPECT_EQ(refusal([&] { settings.refuse_unknown(); }), "c.toml:1:9: unknown key 'filter.imm'");
   const Settings imm = settings.overlaid_by(filters.sub("imm"));
   imm.get<double>("sigma_w");
-  imm.get<std::string>("lift");
+  imm.get<std::string>("augmentation");
   EXPECT_EQ(refusal([&] { settings.refuse_unknown(); }),
-            "c.toml:3:1: unknown key 'filter.imm.lfit'; did you mean 'filter.imm.lift'?");
+            "c.toml:3:1: unknown key 'filter.imm.lfit'; did you mean 'filter.imm.augmentation'?");
 }
 
 TEST(Settings, AskingInAnOverlayMakesAKeyKnownBelow) {

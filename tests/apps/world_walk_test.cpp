@@ -15,8 +15,8 @@ void run_coins(const DrawOptions& options) {
   const RandomVariable coin{"coin", {"fair", "bent"}}, side{"side", {"heads", "tails"}};
   const Relation<Random, Random> probable{side, coin, {{0.5, 0.5}, {0.2, 0.8}}};
   const auto possible = with_fuzzy_condition(to_possibility(probable, RatioScale{}));
-  const std::vector<Contestant> contestants = {{"sigma", Classifier{uninformative(coin), probable}},
-                                               {"max", Classifier{uninformative(as_fuzzy(coin)), possible}}};
+  const std::vector<NamedClassifier> contestants = {{"sigma", Classifier{uninformative(coin), probable}},
+                                                    {"max", Classifier{uninformative(as_fuzzy(coin)), possible}}};
   const auto draw_run = [&](std::size_t run) {
     RandomStream random(options.seed, run);
     const std::size_t truth = random.index(coin.size());

@@ -25,9 +25,9 @@ Geodetic place(int k) {
   return {52.0 + 0.02 * std::sin(t / 20.0), 4.5 + 0.0015 * t, 1000.0 + 5.0 * t};
 }
 
-AnyPlot whole(int k) {
+AnyDetection whole(int k) {
   const auto [latitude, longitude, altitude] = place(k);
-  return AnyPlot::position(2.0 * k, Numbers{latitude, longitude, altitude}, variances);
+  return AnyDetection::position(2.0 * k, Numbers{latitude, longitude, altitude}, variances);
 }
 
 void expect_same(const Numbers& found, const Numbers& expected) {
@@ -42,15 +42,17 @@ TEST(EarthTarget, IsTheTargetOfPlacesThatGeographicLibMakesLocal) {
   const GeographicLib::LocalCartesian frame(place(0).latitude_deg, place(0).longitude_deg, place(0).altitude_m);
   std::size_t steps = 0;
   for (int k = 0; k < 40; ++k) {
-    AnyPlot in_metres = whole(k);
-    in_metres.sensor = AnyPlot::Sensor::components;
+    AnyDetection in_metres = whole(k);
+    in_metres.sensor = AnyDetection::Sensor::components;
     in_metres.places = {0, 1, 2};
     // From its start on: an altitude alone, and places without one.
-    AnyPlot plot = in_metres;
+    AnyDetection detection = in_metres;
     const bool alone = k > 5 && k % 3 == 1, flat = k > 5 && k % 3 == 2;
-    if (alone) plot = AnyPlot::components(2.0 * k, std::array{2}, Numbers{place(k).altitude_m}, Numbers{400.0});
+    if (alone)
+      detection = AnyDetection::components(2.0 * k, std::array{2}, Numbers{place(k).altitude_m}, Numbers{400.0});
     if (flat)
-      plot = AnyPlot::components(2.0 * k, std::array{0, 1}, Numbers{plot.z[0], plot.z[1]}, Numbers{100.0, 100.0});
+      detection = AnyDetection::components(2.0 * k, std::array{0, 1}, Numbers{detection.z[0], detection.z[1]},
+                                           Numbers{100.0, 100.0});
     Geodetic there = place(k);
     if (alone || flat) {  // what is not told is where it is expected
       const TargetPoint last = local.output();
@@ -63,12 +65,12 @@ TEST(EarthTarget, IsTheTargetOfPlacesThatGeographicLibMakesLocal) {
     }
     Position at{};
     frame.Forward(there.latitude_deg, there.longitude_deg, there.altitude_m, at[0], at[1], at[2]);
-    in_metres = plot;
-    for (std::size_t i = 0; i < static_cast<std::size_t>(plot.size); ++i)
-      in_metres.z[i] = at[static_cast<std::size_t>(plot.places[i])];
+    in_metres = detection;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(detection.size); ++i)
+      in_metres.z[i] = at[static_cast<std::size_t>(detection.places[i])];
     TargetPoint expected;
     local.follow({&in_metres, 1}, [&](const TargetPoint& point) { expected = point; });
-    target.follow({&plot, 1}, [&](const EarthPoint& point) {
+    target.follow({&detection, 1}, [&](const EarthPoint& point) {
       ++steps;
       Geodetic own;
       std::vector<double> turn(9);
@@ -118,9 +120,9 @@ TEST(EarthTarget, GoesAboutTheEarthWithItsFrame) {
       Numbers z = {place.latitude_deg, place.longitude_deg, place.altitude_m}, R = variances;
       z.resize(static_cast<std::size_t>(axes));
       R.resize(z.size());
-      AnyPlot plot = AnyPlot::position(20.0 * static_cast<double>(k), z, R);
-      plot.tag = k;
-      target.follow({&plot, 1}, [&](const EarthPoint& point) {
+      AnyDetection detection = AnyDetection::position(20.0 * static_cast<double>(k), z, R);
+      detection.tag = k;
+      target.follow({&detection, 1}, [&](const EarthPoint& point) {
         if (k > 20) expect_there(point);
       });
     }
@@ -154,10 +156,10 @@ TEST(EarthTarget, IsSeenFromPlacesOnTheEarth) {
   for (int k = 0; k < 40; ++k) {
     const Polar seen = to_polar(sighting(place(k)));
     const Numbers z = {seen.range, seen.azimuth.radians(), seen.elevation.radians()};
-    const AnyPlot plot = seen_from(station, AnyPlot::polar(2.0 * k, z, variances), frame, 3);
+    const AnyDetection detection = seen_from(station, AnyDetection::polar(2.0 * k, z, variances), frame, 3);
     const Position expected = frame.to_local(place(k));
-    const Vector<3> found =
-        to_cartesian({plot.z[0], radians(plot.z[1]), radians(plot.z[2])}) + Vector<3>(plot.origin.data());
+    const Vector<3> found = to_cartesian({detection.z[0], radians(detection.z[1]), radians(detection.z[2])}) +
+                            Vector<3>(detection.origin.data());
     for (Eigen::Index i = 0; i < 3; ++i)
       EXPECT_NEAR(found[i], expected[static_cast<std::size_t>(i)], 1e-9 * seen.range) << k;
   }
@@ -168,10 +170,11 @@ TEST(EarthTarget, IsSeenFromPlacesOnTheEarth) {
   for (int k = 0; k < 60; ++k) {
     const Polar seen = to_polar(sighting(place(k)));
     const Numbers z = {seen.range, seen.azimuth.radians(), seen.elevation.radians()}, R = {25.0, 1e-7, 1e-7};
-    AnyPlot plot = AnyPlot::polar(2.0 * k, std::span(z).first(k < 10 ? 3 : 2), std::span(R).first(k < 10 ? 3 : 2), at);
+    AnyDetection detection =
+        AnyDetection::polar(2.0 * k, std::span(z).first(k < 10 ? 3 : 2), std::span(R).first(k < 10 ? 3 : 2), at);
     if (k >= 10 && k % 2 == 0)
-      plot = AnyPlot::components(2.0 * k, std::array{2}, Numbers{place(k).altitude_m}, Numbers{25.0});
-    target.follow({&plot, 1}, [&](const EarthPoint& point) { last = point; });
+      detection = AnyDetection::components(2.0 * k, std::array{2}, Numbers{place(k).altitude_m}, Numbers{25.0});
+    target.follow({&detection, 1}, [&](const EarthPoint& point) { last = point; });
   }
   EXPECT_NEAR(last.place.latitude_deg, place(59).latitude_deg, 3e-4);
   EXPECT_NEAR(last.place.longitude_deg, place(59).longitude_deg, 3e-4);
@@ -185,19 +188,19 @@ TEST(EarthTarget, TakesVelocitiesAlongEastNorthAndUpOfTheirPlace) {
   Position at{};
   std::vector<double> turn(9);
   local.Forward(there.latitude_deg, there.longitude_deg, there.altitude_m, at[0], at[1], at[2], turn);
-  const AnyPlot plot = AnyPlot::components(0.0, std::array{0, 1, 2, 3, 4, 5},
-                                           Numbers{61.0, 14.0, 9000.0, 100.0, -30.0, 5.0}, Numbers(6, 1.0));
-  const AnyPlot found = in_frame(plot, frame, at, 3);
+  const AnyDetection detection = AnyDetection::components(
+      0.0, std::array{0, 1, 2, 3, 4, 5}, Numbers{61.0, 14.0, 9000.0, 100.0, -30.0, 5.0}, Numbers(6, 1.0));
+  const AnyDetection found = in_frame(detection, frame, at, 3);
   const Eigen::Vector3d v = Eigen::Map<const Eigen::Matrix3d>(turn.data()).transpose() * Eigen::Vector3d(100, -30, 5);
   expect_same(Numbers(found.z.begin(), found.z.end()), {at[0], at[1], at[2], v[0], v[1], v[2]});
 }
 
 TEST(EarthTarget, RefusesWhatIsNoPlaceAndOneAxis) {
   EarthTarget target{choice()}, on_a_line{choice(1)};
-  const AnyPlot plot = AnyPlot::position(0.0, Numbers{91.0, 0.0, 0.0}, variances);
-  EXPECT_THROW(target.follow({&plot, 1}, {}), std::invalid_argument);
+  const AnyDetection detection = AnyDetection::position(0.0, Numbers{91.0, 0.0, 0.0}, variances);
+  EXPECT_THROW(target.follow({&detection, 1}, {}), std::invalid_argument);
   EXPECT_THROW(on_a_line.begin({}, {}), std::invalid_argument);
-  const AnyPlot height = AnyPlot::components(0.0, std::array{2}, Numbers{100.0}, Numbers{25.0});
+  const AnyDetection height = AnyDetection::components(0.0, std::array{2}, Numbers{100.0}, Numbers{25.0});
   EarthTarget nowhere{choice()};
   nowhere.follow({&height, 1}, [](const EarthPoint&) { FAIL(); });  // a height tells no place
   EXPECT_FALSE(nowhere.anchor());

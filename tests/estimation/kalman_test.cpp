@@ -85,11 +85,11 @@ TEST(Kalman, APivotThatDrownedInRoundingIsLifted) {
     const Gaussian<2> z{Vector<2>(5.0, 5.0), R * SquareMatrix<2>::Identity()};
     Gaussian<4> x;
     const auto innovation = update(dwna<2>(1.0), spread_along_the_diagonal(1e16), z, x);
-    const double lifted = (1e16 + R) * (1.0 + 128.0 * epsilon);
-    EXPECT_EQ(innovation.covariance, (SquareMatrix<2>{{lifted, 1e16}, {1e16, lifted}}));
+    const double augmented = (1e16 + R) * (1.0 + 128.0 * epsilon);
+    EXPECT_EQ(innovation.covariance, (SquareMatrix<2>{{augmented, 1e16}, {1e16, augmented}}));
     EXPECT_CLOSE(1e15 * innovation.squared_distance, 2.5, 1e-9);
     EXPECT_CLOSE(innovation.log_likelihood,
-                 -0.5 * std::log((lifted - 1e16) * (lifted + 1e16)) - std::log(2.0 * std::numbers::pi), 1e-3);
+                 -0.5 * std::log((augmented - 1e16) * (augmented + 1e16)) - std::log(2.0 * std::numbers::pi), 1e-3);
     for (const int axis : {0, 1}) EXPECT_NEAR(x.mean(axis), 5.0, std::sqrt(R));
     EXPECT_EQ(x.mean.tail<2>(), Vector<2>::Zero());
     EXPECT_TRUE(positive_semi_definite(x.covariance));

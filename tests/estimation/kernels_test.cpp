@@ -143,8 +143,8 @@ TEST(Kernels, ProductsAreEigens) {
   });
 }
 
-/// S = 1e16 · 11ᵀ + R, whose second pivot is drowned in the rounding of S: it is lifted, by so much that the result is
-/// a covariance; a negative one is refused.
+/// S = 1e16 · 11ᵀ + R, whose second pivot is drowned in the rounding of S: it is augmented, by so much that the result
+/// is a covariance; a negative one is refused.
 TEST(Kernels, ADrownedPivotIsLifted) {
   with_each_instruction_set([](const detail::Kernels& kernels) {
     Matrix P = Matrix::Constant(2, 2, 1e16), S(2, 2), x = Matrix::Zero(2, 1), residual = x;

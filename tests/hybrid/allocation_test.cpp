@@ -70,8 +70,9 @@ TEST(Allocation, ATargetAllocatesNothingWhateverBecomesOfAMeasurement) {
   const Gaussian<2> z = near_by, far = far_off;
   std::vector<Verdict> verdicts;
   verdicts.reserve(16);
-  for (const Plot& plot : {Plot(1.0, z), Plot(2.0, z), Plot(1.5, z), Plot(3.0, far), Plot(4.0, far), Plot(5.0)}) {
-    const std::size_t allocations = allocations_of([&] { verdicts.push_back(target.take(plot)); });
+  for (const Detection& detection : {Detection(1.0, z), Detection(2.0, z), Detection(1.5, z), Detection(3.0, far),
+                                     Detection(4.0, far), Detection(5.0)}) {
+    const std::size_t allocations = allocations_of([&] { verdicts.push_back(target.take(detection)); });
     if (verdicts.back() != Verdict::restarted) ASSERT_EQ(allocations, 0U);
   }
   EXPECT_EQ(verdicts, (std::vector{Verdict::accepted, Verdict::accepted, Verdict::accepted, Verdict::rejected,
@@ -86,10 +87,11 @@ TEST(Allocation, AnAnyTargetAllocatesNothingOnceItsOutputHasRoom) {
     double time = 0.0;
     for (const Scan& scan : manoeuvring_target(30)) {
       time += scan.dt + 0.01;
-      const auto plot = scan.z ? AnyPlot::position(time, {scan.z->mean.data(), 2}, {scan.z->covariance.data(), 4})
-                               : AnyPlot::missed(time);
+      const auto detection =
+          scan.z ? AnyDetection::position(time, {scan.z->mean.data(), 2}, {scan.z->covariance.data(), 4})
+                 : AnyDetection::missed(time);
       const auto take = [&] {
-        target.take(plot);
+        target.take(detection);
         target.output(point);
       };
       const std::size_t allocations = allocations_of(take);

@@ -14,15 +14,16 @@ TargetChoice choice(bool fuzzy, Scheme scheme, int axes = 3) {
   return result;
 }
 
-AnyPlot at(double time, double x, double y, std::size_t tag = 0, double sigma = 10.0) {
+AnyDetection at(double time, double x, double y, std::size_t tag = 0, double sigma = 10.0) {
   const double variance = sigma * sigma;
-  AnyPlot plot = AnyPlot::position(time, std::array{x, y, 100.0}, std::array{variance, variance, variance});
-  plot.tag = tag;
-  return plot;
+  AnyDetection detection =
+      AnyDetection::position(time, std::array{x, y, 100.0}, std::array{variance, variance, variance});
+  detection.tag = tag;
+  return detection;
 }
 
 /// Flies straight, then turns at 2 m/s².
-AnyPlot turning(double t) {
+AnyDetection turning(double t) {
   const double turn = std::clamp(t - 40.0, 0.0, 15.0);
   return at(t, 100.0 * t, turn * turn + 30.0 * std::max(t - 55.0, 0.0), static_cast<std::size_t>(t));
 }
@@ -46,19 +47,19 @@ TEST(AnyTarget, StartsFromThreePointsAndTellsTheTagOfEveryStep) {
   EXPECT_FALSE(point.nis);
 }
 
-TEST(AnyTarget, FollowsPlotsAndTellsWhatIsKnownAfterEach) {
+TEST(AnyTarget, FollowsDetectionsAndTellsWhatIsKnownAfterEach) {
   AnyTarget target{choice(false, Scheme::interacting)}, other = target;
-  std::vector<AnyPlot> plots;
-  for (int k = 0; k < 6; ++k) plots.push_back(at(k, 100.0 * k, 0.0, static_cast<std::size_t>(10 + k)));
+  std::vector<AnyDetection> detections;
+  for (int k = 0; k < 6; ++k) detections.push_back(at(k, 100.0 * k, 0.0, static_cast<std::size_t>(10 + k)));
   std::vector<std::size_t> tags;
-  target.follow(plots, [&](const TargetPoint& point) {
+  target.follow(detections, [&](const TargetPoint& point) {
     tags.push_back(point.tag);
     EXPECT_EQ(point.is_start, point.tag == 12);
     EXPECT_EQ(point.time, static_cast<double>(point.tag) - 10.0);
     EXPECT_NEAR(point.mean[0], 100.0 * point.time, 1e-6);
   });
   EXPECT_EQ(tags, (std::vector<std::size_t>{12, 13, 14, 15}));
-  for (const AnyPlot& plot : plots) other.take(plot);
+  for (const AnyDetection& detection : detections) other.take(detection);
   EXPECT_EQ(target.output().mean, other.output().mean);
 }
 
@@ -93,7 +94,7 @@ TEST(AnyTarget, CopiedGoesItsOwnWayAndMovedGoesOn) {
     }
 }
 
-TEST(AnyTarget, AGivenStartWaitsForTheSecondPlotAndTakesBoth) {
+TEST(AnyTarget, AGivenStartWaitsForTheSecondDetectionAndTakesBoth) {
   TargetChoice given = choice(true, Scheme::interacting);
   given.start = StartRule::given;
   given.start_mean = {-100.0, 0, 100.0, 100.0, 0, 0, 0, 0, 0};
@@ -112,13 +113,13 @@ TEST(AnyTarget, AGivenStartWaitsForTheSecondPlotAndTakesBoth) {
 TEST(AnyTarget, TakesWhatSeveralSensorsSee) {
   AnyTarget target{choice(false, Scheme::interacting)};
   for (int k = 0; k < 5; ++k) target.take(at(k, 100.0 * k + 5000.0, 0.0));
-  EXPECT_EQ(target.take(AnyPlot::components(5.0, std::array{2}, std::array{100.0}, std::array{1e-4})),
+  EXPECT_EQ(target.take(AnyDetection::components(5.0, std::array{2}, std::array{100.0}, std::array{1e-4})),
             Verdict::accepted);
   EXPECT_NEAR(target.output().covariance[2 * 9 + 2], 1e-4, 1e-6);
   const std::array doppler{5500.9, 0.0, 0.01818, 100.0};
-  EXPECT_EQ(target.take(AnyPlot::doppler(5.0, doppler, std::array{1.0, 1e-6, 1e-6, 1.0})), Verdict::accepted)
+  EXPECT_EQ(target.take(AnyDetection::doppler(5.0, doppler, std::array{1.0, 1e-6, 1e-6, 1.0})), Verdict::accepted)
       << "two sensors may see at one time";
-  AnyPlot bearing = AnyPlot::bearing(6.0, Angle{}, radians(1e-3));
+  AnyDetection bearing = AnyDetection::bearing(6.0, Angle{}, radians(1e-3));
   EXPECT_EQ(target.take(bearing), Verdict::accepted);
   bearing.size = 2;
   EXPECT_INVALID(("2 measured quantities", "1"), target.take(bearing));
@@ -129,7 +130,7 @@ TEST(AnyTarget, StartsFromBearingsThatCross) {
   const std::array<std::array<double, 3>, 2> stations{{{0.0, 0.0, 0.0}, {5000.0, 0.0, 0.0}}};
   const auto seen = [&](int k, std::size_t by) {
     const double t = k, x = 1000.0 + 40.0 * t, y = 4000.0 - 10.0 * t;
-    return AnyPlot::bearing(t, radians(std::atan2(y, x - stations[by][0])), radians(1e-3), stations[by]);
+    return AnyDetection::bearing(t, radians(std::atan2(y, x - stations[by][0])), radians(1e-3), stations[by]);
   };
   for (const bool accelerates : {false, true}) {
     TargetChoice two = choice(true, Scheme::interacting, 2);
@@ -159,10 +160,10 @@ TEST(AnyTarget, ATurnedWorldGivesTheTurnedTrack) {
     some.motions[1].name = "ct";
     some.rules.record = true;
     const auto seen = [&](int t, bool turned) {  // x → −y + 7, y → x − 3
-      AnyPlot plot = turning(t);
-      if (turned) plot.z = {-plot.z[1] + 7.0, plot.z[0] - 3.0, plot.z[2]};
-      if (axes == 2) plot = AnyPlot::position(t, std::span(plot.z).first(2), std::array{100.0, 100.0});
-      return plot;
+      AnyDetection detection = turning(t);
+      if (turned) detection.z = {-detection.z[1] + 7.0, detection.z[0] - 3.0, detection.z[2]};
+      if (axes == 2) detection = AnyDetection::position(t, std::span(detection.z).first(2), std::array{100.0, 100.0});
+      return detection;
     };
     const std::vector<double> b{7, -3, 0}, A = axes == 2
                                                    ? std::vector<double>{0, -1, 1, 0}
@@ -205,15 +206,16 @@ TEST(AnyTarget, AlongOneAxisThereIsNoTurnAndNoRadar) {
     for (const bool fuzzy : {false, true}) {
       AnyTarget target{choice(fuzzy, scheme, 1)};
       const auto on_line = [](double time, double x) {
-        return AnyPlot::position(time, std::array{x}, std::array{100.0});
+        return AnyDetection::position(time, std::array{x}, std::array{100.0});
       };
       for (int k = 0; k < 6; ++k) target.take(on_line(k, 10.0 * k));
       EXPECT_EQ(target.components(), (std::vector<std::string>{"x", "vx", "ax"}));
       EXPECT_NEAR(target.output().mean[1], 10.0, 1e-9);
-      EXPECT_EQ(target.take(AnyPlot::components(6.0, std::array{0, 1}, std::array{60.0, 10.0}, std::array{100.0, 1.0})),
-                Verdict::accepted);
-      AnyPlot range = on_line(7.0, 70.0);
-      range.sensor = AnyPlot::Sensor::polar;
+      EXPECT_EQ(
+          target.take(AnyDetection::components(6.0, std::array{0, 1}, std::array{60.0, 10.0}, std::array{100.0, 1.0})),
+          Verdict::accepted);
+      AnyDetection range = on_line(7.0, 70.0);
+      range.sensor = AnyDetection::Sensor::polar;
       EXPECT_INVALID(("one axis", "plane"), target.take(range));
     }
   TargetChoice turning = choice(false, Scheme::interacting, 1);

@@ -36,8 +36,8 @@ void is_one_filter(Scheme scheme) {
       scan.dt = time - before;  // which is what a target sees
       vector.step(scan);
       scan.z ? tuple.step(scan.dt, *scan.z) : tuple.step(scan.dt);
-      target.take(scan.z ? AnyPlot::position(time, {scan.z->mean.data(), 2}, {scan.z->covariance.data(), 4})
-                         : AnyPlot::missed(time));
+      target.take(scan.z ? AnyDetection::position(time, {scan.z->mean.data(), 2}, {scan.z->covariance.data(), 4})
+                         : AnyDetection::missed(time));
       ASSERT_PRED_FORMAT3(same_state, shown(tuple), vector, 1e-9);
       ASSERT_CLOSE(tuple.estimate().mean, vector.estimate.mean, 1e-9);
       ASSERT_CLOSE(tuple.template estimate<2>().covariance, vector.estimates[2].covariance, 1e-9);

@@ -63,7 +63,7 @@ inline TargetChoice chosen(bool fuzzy, Scheme scheme = Scheme::interacting) {
   choice.models = {"calm", "rough", "turn"};
   choice.transition = fuzzy ? Rows{{1.0, 0.5, 0.2}, {0.5, 1.0, 0.5}, {0.1, 0.5, 1.0}}
                             : Rows{{0.90, 0.07, 0.03}, {0.10, 0.80, 0.10}, {0.02, 0.08, 0.90}};
-  if (scheme == Scheme::histories) choice.lift = Lift::prior;
+  if (scheme == Scheme::histories) choice.augmentation = StateAugmentation::prior;
   return choice;
 }
 /// The same with other models, and another transition.
@@ -74,12 +74,12 @@ inline TargetChoice with(TargetChoice choice, std::vector<MotionChoice> motions,
   choice.transition = std::move(transition);
   return choice;
 }
-inline TargetChoice with(TargetChoice choice, Lift lift) {
-  choice.lift = lift;
+inline TargetChoice with(TargetChoice choice, StateAugmentation augmentation) {
+  choice.augmentation = augmentation;
   return choice;
 }
 
-/// "himm, lift unbiased, selected, mixing stay, output first".
+/// "himm, augmentation unbiased, selected, mixing stay, output first".
 inline std::string name_of(const TargetChoice& choice) {
   static constexpr const char *schemes[] = {"imm", "gpb1", "gpb2", "static imm", "imm histories"},
                               *fuzzy_schemes[] = {"himm", "himm by one arg max", "viterbi", "static himm",
@@ -88,12 +88,13 @@ inline std::string name_of(const TargetChoice& choice) {
                               *covariances[] = {"selected", "own", "own recentred", "released", "envelope"},
                               *all_ties[] = {"stay", "first", "last"};
   const auto word = [](const auto& words, auto value) { return std::string(words[static_cast<int>(value)]); };
-  return word(choice.fuzzy ? fuzzy_schemes : schemes, choice.scheme) + ", lift " + word(all_lifts, choice.lift) + ", " +
-         word(covariances, choice.mixed_covariance) + ", mixing " + word(all_ties, choice.mixing_tie) + ", output " +
-         word(all_ties, choice.output_tie);
+  return word(choice.fuzzy ? fuzzy_schemes : schemes, choice.scheme) + ", augmentation " +
+         word(all_lifts, choice.augmentation) + ", " + word(covariances, choice.mixed_covariance) + ", mixing " +
+         word(all_ties, choice.mixing_tie) + ", output " + word(all_ties, choice.output_tie);
 }
 
-inline constexpr auto lifts = {Lift::zero, Lift::borrowed_variance, Lift::unbiased};
+inline constexpr auto augmentations = {StateAugmentation::zero, StateAugmentation::borrowed_variance,
+                                       StateAugmentation::unbiased};
 inline constexpr auto readings = {MixedCovariance::selected, MixedCovariance::own, MixedCovariance::own_recentred,
                                   MixedCovariance::released};
 inline constexpr auto every_tie = {Tie::stay, Tie::first, Tie::last};
@@ -116,20 +117,20 @@ inline std::vector<TargetChoice> every_filter() {
       all.push_back(chosen(fuzzy, scheme));
   return all;
 }
-/// Every reading of the paper, of all filters that merge, under every lift.
+/// Every reading of the paper, of all filters that merge, under every augmentation.
 inline std::vector<TargetChoice> every_reading() {
   std::vector<TargetChoice> all;
-  for (const Lift lift : lifts) {
+  for (const StateAugmentation augmentation : augmentations) {
     for (const Scheme scheme : {Scheme::interacting, Scheme::common_start, Scheme::second_order})
-      all.push_back(with(chosen(false, scheme), lift));
+      all.push_back(with(chosen(false, scheme), augmentation));
     all.push_back(all.end()[-3]);
     all.back().imm_mixing = MixingWeights::released;
     for (const Scheme scheme : {Scheme::interacting, Scheme::common_start})
       for (const MixedCovariance reading : readings) {
-        all.push_back(with(chosen(true, scheme), lift));
+        all.push_back(with(chosen(true, scheme), augmentation));
         all.back().mixed_covariance = reading;
       }
-    all.push_back(with(chosen(true, Scheme::second_order), lift));
+    all.push_back(with(chosen(true, Scheme::second_order), augmentation));
   }
   return all;
 }
@@ -138,7 +139,7 @@ inline std::vector<TargetChoice> every_reading() {
 inline std::vector<TargetChoice> every_rule() {
   std::vector<TargetChoice> all = every_reading();
   const auto add = [&](bool fuzzy, Scheme scheme, const auto& change) {
-    all.push_back(with(chosen(fuzzy, scheme), Lift::zero));
+    all.push_back(with(chosen(fuzzy, scheme), StateAugmentation::zero));
     all.back().mixed_covariance = MixedCovariance::selected;
     change(all.back());
   };
@@ -153,9 +154,9 @@ inline std::vector<TargetChoice> every_rule() {
       add(fuzzy, scheme, [](TargetChoice& choice) { choice.likelihood = LikelihoodForm::possibility; });
     add(false, scheme, [](TargetChoice& choice) { choice.output_spread = OutputSpread::omitted; });
   }
-  for (const Lift lift : lifts)
+  for (const StateAugmentation augmentation : augmentations)
     add(true, Scheme::interacting, [&](TargetChoice& choice) {
-      choice.lift = lift;
+      choice.augmentation = augmentation;
       choice.mixed_covariance = MixedCovariance::envelope;
     });
   return all;
@@ -197,7 +198,8 @@ ModeTransition<Kind> transition_of(const TargetChoice& choice) {
 
 template <Uncertainty Kind>
 Interaction<Kind> interaction_of(const TargetChoice& choice) {
-  Interaction<Kind> interaction{.lift = choice.lift, .output_tie = choice.output_tie, .entry = choice.entry};
+  Interaction<Kind> interaction{
+      .augmentation = choice.augmentation, .output_tie = choice.output_tie, .entry = choice.entry};
   if (choice.scheme == Scheme::common_start) interaction.mixed_start = MixedStart::common;
   interaction.likelihood = choice.likelihood;
   if constexpr (std::is_same_v<Kind, Fuzzy>)
@@ -336,7 +338,7 @@ inline restatement::Options restate(const TargetChoice& choice) {
           .mixing_weights = static_cast<restatement::Weights>(choice.imm_mixing),
           .mixed_covariance = choice.fuzzy ? static_cast<restatement::MixedCovariance>(choice.mixed_covariance)
                                            : restatement::MixedCovariance::selected,
-          .lift = static_cast<restatement::Lift>(choice.lift),
+          .augmentation = static_cast<restatement::StateAugmentation>(choice.augmentation),
           .mixing_tie = static_cast<restatement::Tie>(choice.mixing_tie),
           .output_tie = static_cast<restatement::Tie>(choice.output_tie),
           .common_start = choice.scheme == Scheme::common_start,

@@ -44,7 +44,7 @@ TEST(ComingFrom, Matlab) {
   const Relation transition{mode, mode, {{0.9, 0.1}, {0.1, 0.9}}};
   const Gaussian<3> start{Vector<3>(0.0, 10.0, 0.0), 100.0 * SquareMatrix<3>::Identity()};
   Interaction<Random> interaction;
-  interaction.lift = Lift::zero;
+  interaction.augmentation = StateAugmentation::zero;
   InteractingMultipleModel imm{std::tuple{dwna<1>(1.0), dwpa<1>(1.0)}, transition, start, interaction};
   for (const double z : {11.0, 19.0, 32.0, 47.0, 70.0}) imm.step(1.0, {Vector<1>(z), SquareMatrix<1>(25.0)});
   const auto estimate = imm.estimate();      // State and StateCovariance, always in the components of all models

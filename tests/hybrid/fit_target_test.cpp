@@ -5,37 +5,37 @@ namespace fit_target_test {
 TEST(LogScores, AreThoseOfTheTargetStepByStep) {
   const TargetChoice choice = two_speeds(true);
   Simulated target = simulate(choice, 5.0, 30, 1);
-  believe(target.plots, 5.0);
-  target.plots[10].sensor = AnyPlot::Sensor::none;
-  const auto scores = log_scores(choice, target.plots);
+  believe(target.detections, 5.0);
+  target.detections[10].sensor = AnyDetection::Sensor::none;
+  const auto scores = log_scores(choice, target.detections);
   ASSERT_EQ(scores.size(), 30U);
   AnyTarget same(choice);
-  for (const AnyPlot& plot : target.plots) {
-    same.take(plot);
+  for (const AnyDetection& detection : target.detections) {
+    same.take(detection);
     const TargetPoint point = same.output();
-    if (plot.tag < 3 || plot.tag == 10) {
-      EXPECT_TRUE(std::isnan(scores[plot.tag])) << plot.tag;
+    if (detection.tag < 3 || detection.tag == 10) {
+      EXPECT_TRUE(std::isnan(scores[detection.tag])) << detection.tag;
       EXPECT_FALSE(point.log_score);
       continue;
     }
-    EXPECT_EQ(scores[plot.tag], point.log_score);
+    EXPECT_EQ(scores[detection.tag], point.log_score);
     EXPECT_GE(*point.log_evidence, *point.log_score);  // the weights of a fuzzy mode sum to one or more
     double squares = 0.0;
     for (const double number : point.normalized_innovation) squares += number * number;
     EXPECT_CLOSE(squares, *point.nis, 1e-12);
   }
-  target.plots[3].tag = 30;
-  EXPECT_INVALID(("tag 30", "30"), log_scores(choice, target.plots));
+  target.detections[3].tag = 30;
+  EXPECT_INVALID(("tag 30", "30"), log_scores(choice, target.detections));
 }
 
 TEST(LogScores, OfAMeasurementThatTheGateRejectedAreKnown) {
   TargetChoice choice = two_speeds(false);
   Simulated target = simulate(choice, 5.0, 12, 2);
-  believe(target.plots, 5.0);
-  target.plots[8].z[0] += 1e4;
-  const double open = log_scores(choice, target.plots)[8];
+  believe(target.detections, 5.0);
+  target.detections[8].z[0] += 1e4;
+  const double open = log_scores(choice, target.detections)[8];
   choice.rules.gate_probability = 0.999;
-  EXPECT_EQ(log_scores(choice, target.plots)[8], open);
+  EXPECT_EQ(log_scores(choice, target.detections)[8], open);
   EXPECT_LT(open, -100.0);
 }
 

@@ -12,11 +12,11 @@ using Fixed = FixedStepMotion<N>;
 
 /// Follows measurements by both filters of this kind.
 template <Uncertainty Kind, int N, class Follow>
-void by_both_orders(const std::vector<Fixed<N>>& models, const Rows& rows, const Estimates& start, Lift lift,
-                    const Follow& follow) {
+void by_both_orders(const std::vector<Fixed<N>>& models, const Rows& rows, const Estimates& start,
+                    StateAugmentation augmentation, const Follow& follow) {
   const Variable<Kind> mode{"mode", rows.size()};
   const Relation<Kind, Kind> transition{mode, mode, rows};
-  const Interaction<Kind> interaction{.lift = lift};
+  const Interaction<Kind> interaction{.augmentation = augmentation};
   const Models any(models.begin(), models.end());
   follow(InteractingMultipleModel{any, transition, start, interaction}, Scheme::interacting);
   follow(SecondOrderMultipleModel{any, transition, start, interaction}, Scheme::second_order);
@@ -43,7 +43,7 @@ const Fixed<3> turning_x{"turning",
                          SquareMatrix<3>{{0.1, 0, 0}, {0, 0.5, 0.2}, {0, 0.2, 0.6}}};
 
 template <Uncertainty Kind>
-void mixes_as_the_restatement(Lift lift) {
+void mixes_as_the_restatement(StateAugmentation augmentation) {
   constexpr bool fuzzy = std::is_same_v<Kind, Fuzzy>;
   const Rows rows = fuzzy ? Rows{{1.0, 0.5}, {0.5, 1.0}} : Rows{{0.8, 0.2}, {0.2, 0.8}};
   const Estimates start(
@@ -52,9 +52,9 @@ void mixes_as_the_restatement(Lift lift) {
   std::vector<restatement::Model> models;
   for (const auto& model : {accelerating, turning_x})
     models.push_back(restated_model(model, restated_matrix(sees_x.names, model.components())));
-  by_both_orders<Kind, 3>({accelerating, turning_x}, rows, start, lift, [&](auto filter, Scheme scheme) {
+  by_both_orders<Kind, 3>({accelerating, turning_x}, rows, start, augmentation, [&](auto filter, Scheme scheme) {
     restatement::Filter expected{
-        models, restate(rows), restate(start), {1.0, 1.0}, restate(with(chosen(fuzzy, scheme), lift))};
+        models, restate(rows), restate(start), {1.0, 1.0}, restate(with(chosen(fuzzy, scheme), augmentation))};
     EXPECT_EQ(filter.components(), (std::vector<std::string>{"x", "vx", "ax", "turn_rate"}));
     std::mt19937_64 generator(5);
     std::normal_distribution<double> normal;
@@ -76,9 +76,9 @@ void mixes_as_the_restatement(Lift lift) {
 }
 
 TEST(FixedStepModels, OfComponentsThatAreNotNestedMixAsInTheRestatement) {
-  for (const Lift lift : lifts) {
-    mixes_as_the_restatement<Random>(lift);
-    mixes_as_the_restatement<Fuzzy>(lift);
+  for (const StateAugmentation augmentation : augmentations) {
+    mixes_as_the_restatement<Random>(augmentation);
+    mixes_as_the_restatement<Fuzzy>(augmentation);
   }
 }
 

@@ -74,7 +74,7 @@ TEST(Gate, ATargetThatTurnsByFourGIsFoundAgain) {
       Target target{filter, 2.0, anywhere, TargetRules{0.999, 3}};
       std::size_t in_a_row = 0, longest = 0;
       for (double t = 3.0; t <= 100.0; t += 1.0) {
-        const Verdict verdict = target.take(Plot(t, measured_turn(t, 40.0)));
+        const Verdict verdict = target.take(Detection(t, measured_turn(t, 40.0)));
         in_a_row = verdict == Verdict::rejected ? in_a_row + 1 : 0;
         longest = std::max(longest, in_a_row);
       }
@@ -103,7 +103,7 @@ TEST(Gate, RejectsWhatIsBeyondAllNumbers) {
         }
         filter.do_with([&](const auto& one) {
           Target target{one, 0.0, anywhere, TargetRules{0.999, 0}};
-          EXPECT_EQ(target.take(Plot(0.2, at(far, far, variance))), Verdict::rejected);
+          EXPECT_EQ(target.take(Detection(0.2, at(far, far, variance))), Verdict::rejected);
           EXPECT_PRED_FORMAT3(same_state, shown(target.filter()), missed, 0.0);
         });
       }

@@ -107,8 +107,8 @@ TEST(HistoryFilter, ATargetTellsWhenItsModeChanged) {
   const TargetChoice choice =
       with(chosen(true, Scheme::histories), {calm(3.0), turning(0.5)}, {{1.0, 0.008}, {0.03, 1.0}});
   Target target{made<Fuzzy>({}, choice),
-                [&](std::span<const Plot> plots, std::size_t) -> std::optional<StartAt<std::vector<State>>> {
-                  return StartAt<std::vector<State>>{plots.back().time, starts(choice)};
+                [&](std::span<const Detection> detections, std::size_t) -> std::optional<StartAt<std::vector<State>>> {
+                  return StartAt<std::vector<State>>{detections.back().time, starts(choice)};
                 },
                 TargetRules{.gate_probability = 1.0, .record = true}};
   double time = 0.0, begins = 0.0, ends = 0.0;
@@ -118,7 +118,7 @@ TEST(HistoryFilter, ATargetTellsWhenItsModeChanged) {
     if (k == 80) begins = time;
     if (k == 130) ends = time;
     ++k;
-    target.take(scan.z ? Plot(time, *scan.z) : Plot(time));
+    target.take(scan.z ? Detection(time, *scan.z) : Detection(time));
   }
   std::vector<std::pair<double, std::size_t>> stays;
   target.explained([&](const auto& kept, std::size_t mode) { stays.emplace_back(kept.time, mode); });

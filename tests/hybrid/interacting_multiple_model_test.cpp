@@ -6,7 +6,8 @@ namespace interacting_multiple_model_test {
 TEST(InteractingMultipleModel, TheExactTiesOfThePapersPairAreBrokenAsTheRestatementBreaksThem) {
   for (const Tie mixing : every_tie)
     for (const Tie output : every_tie) {
-      TargetChoice choice = with(with(chosen(true), Lift::zero), {calm(3.0), turning(3.0)}, {{1.0, 0.5}, {0.5, 1.0}});
+      TargetChoice choice =
+          with(with(chosen(true), StateAugmentation::zero), {calm(3.0), turning(3.0)}, {{1.0, 0.5}, {0.5, 1.0}});
       choice.mixed_covariance = MixedCovariance::selected;
       choice.mixing_tie = mixing;
       choice.output_tie = output;

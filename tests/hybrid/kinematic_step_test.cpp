@@ -88,8 +88,9 @@ TargetChoice choice_of(const std::vector<Textbook>& chosen_laws, int axes, bool 
   return choice;
 }
 
-void is_textbook(const std::vector<Textbook>& chosen_laws, int axes, bool fuzzy, Lift lift = Lift::borrowed_variance) {
-  const TargetChoice choice = with(choice_of(chosen_laws, axes, fuzzy), lift);
+void is_textbook(const std::vector<Textbook>& chosen_laws, int axes, bool fuzzy,
+                 StateAugmentation augmentation = StateAugmentation::borrowed_variance) {
+  const TargetChoice choice = with(choice_of(chosen_laws, axes, fuzzy), augmentation);
   const auto A = static_cast<std::size_t>(axes);
   Estimates start;
   std::vector<restatement::Model> models;
@@ -138,10 +139,10 @@ TEST(KinematicStep, OfSeveralLawsIsTheRestatedFilterOfTheirs) {
   under_each_instruction_set([] {
     for (const int axes : {1, 2, 3})
       for (const bool fuzzy : {false, true})
-        for (const Lift lift : lifts) {
-          is_textbook({laws[0], laws[1]}, axes, fuzzy, lift);
-          is_textbook({laws[6], laws[4], laws[2]}, axes, fuzzy, lift);
-          is_textbook({laws[5], laws[3], laws[0], laws[6]}, axes, fuzzy, lift);
+        for (const StateAugmentation augmentation : augmentations) {
+          is_textbook({laws[0], laws[1]}, axes, fuzzy, augmentation);
+          is_textbook({laws[6], laws[4], laws[2]}, axes, fuzzy, augmentation);
+          is_textbook({laws[5], laws[3], laws[0], laws[6]}, axes, fuzzy, augmentation);
         }
   });
 }

@@ -106,7 +106,7 @@ TEST(Mixture, OfDifferentModelsIsReadInTheComponentsOfTheReceiver) {
   const std::vector<std::string> few{"x", "vx"}, many{"x", "vx", "ax"};
   const detail::Correspondence up{many, few};
   const Mixture::Part parts[] = {{detail::view(narrow), &up}, {detail::view(wide)}};
-  const Mixture mixture{detail::view(wide), parts, Lift::zero};
+  const Mixture mixture{detail::view(wide), parts, StateAugmentation::zero};
   Gaussian<3> result;
   const double weights[] = {0.25, 0.75};
   detail::collapse(Selection{}, mixture, weights, 0, detail::view(result));

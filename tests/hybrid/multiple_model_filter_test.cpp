@@ -347,7 +347,7 @@ TEST(MultipleModelFilter, InOtherCoordinatesIsTheFilterOfMeasurementsInThem) {
   };
   for_each(every_filter(), [&](const TargetChoice& any) {
     if (any.scheme == Scheme::histories) return;
-    const TargetChoice choice = with(any, Lift::unbiased);  // borrowing variances alone knows of axes
+    const TargetChoice choice = with(any, StateAugmentation::unbiased);  // borrowing variances alone knows of axes
     std::vector<State> start;
     for (const State& each : starts()) start.push_back(transformed(each));
     AnyFilter filter(choice), expected(choice, start);

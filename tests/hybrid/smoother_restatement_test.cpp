@@ -18,7 +18,7 @@ void is_restated(const Flight& flight, const TargetChoice& choice,
                  const std::vector<restatement::ModelOf<Real>>& models, double tolerance) {
   const auto options = restate(choice);
   const auto exact = restatement::smoothing::smoothed<Real>(
-      models, {options.kind, options.lift, restate(choice.transition)}, flight.steps);
+      models, {options.kind, options.augmentation, restate(choice.transition)}, flight.steps);
   std::size_t winner = flight.filtered.back().winner;
   for (std::size_t k = exact.size(); k-- > 0;) {
     SCOPED_TRACE("row " + std::to_string(k));
@@ -58,7 +58,7 @@ TEST(SmootherRestatement, OfFlights) {
   const auto from = starts();
   for_each(every_filter(), [&](const TargetChoice& choice) {
     if (choice.scheme == Scheme::histories) return;
-    for (const Lift lift : lifts) smooths(with(choice, lift), from);
+    for (const StateAugmentation augmentation : augmentations) smooths(with(choice, augmentation), from);
     smooths(with(choice, {calm(0.5), calm(5.0), calm(40.0)}, choice.transition), {from[0], from[1], from[1]});
     smooths(with(choice, {turning(3.0), turning(8.0), turning(25.0)}, choice.transition), {from[2], from[2], from[2]});
     // Nothing comes to the first mode: it may be the start, and then has no weight.
@@ -98,11 +98,11 @@ TEST(SmootherRestatement, OfModelsThatAreNotNested) {
     const Vector<2> z{8.0 * std::sin(0.1 * k) + normal(generator), 8.0 * std::sin(0.4 * k) + normal(generator)};
     if (k % 5 != 3) rows.back().z = Gaussian<Eigen::Dynamic, 3>{z, SquareMatrix<2>{{2.0, 0.5}, {0.5, 1.0}}};
   }
-  for (const Lift lift : lifts)
+  for (const StateAugmentation augmentation : augmentations)
     for_each(every_filter(), [&](TargetChoice choice) {
       if (choice.scheme == Scheme::histories) return;
       const double stay = choice.fuzzy ? 1.0 : 0.75;
-      choice = with(with(choice, lift), {calm(), calm()}, {{stay, 0.25}, {0.25, stay}});
+      choice = with(with(choice, augmentation), {calm(), calm()}, {{stay, 0.25}, {0.25, stay}});
       const Models any(models.begin(), models.end());
       const auto follow = [&](auto filter) {
         is_restated<long double>(flown(filter, rows, sees_both), choice, restated, 1e-8);

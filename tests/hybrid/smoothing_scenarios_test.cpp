@@ -71,7 +71,7 @@ TEST(SmoothingScenarios, IsBetterThanFilteringInEveryPhaseWhateverTheFilter) {
   for_each(every_reading(), [](TargetChoice choice) {
     const bool paper =
         choice.imm_mixing == MixingWeights::correct && !(choice.fuzzy && choice.scheme == Scheme::common_start);
-    if (choice.lift != Lift::borrowed_variance || !paper) return;
+    if (choice.augmentation != StateAugmentation::borrowed_variance || !paper) return;
     choice = with(choice, {calm(3.0), turning(3.0)},
                   choice.fuzzy ? Rows{{1.0, 0.5}, {0.5, 1.0}} : Rows{{0.95, 0.05}, {0.05, 0.95}});
     choice.axes = 3;

@@ -1,17 +1,17 @@
-// How a target starts: from one position or several plots, and what waits meanwhile.
+// How a target starts: from one position or several detections, and what waits meanwhile.
 
 #include "hybrid/targets.hpp"
 
 namespace target_start_test {
 
-using Plots = std::span<const Plot>;
+using Detections = std::span<const Detection>;
 using Starts = std::vector<State>;
 
 /// Each model from as many points as it needs; of the last three that have a measurement.
-std::optional<StartAt<Starts>> start_from_three(Plots waiting, std::size_t /*starts*/) {
+std::optional<StartAt<Starts>> start_from_three(Detections waiting, std::size_t /*starts*/) {
   std::vector<TimedMeasurement<2>> points;
-  for (const Plot& plot : waiting)
-    if (plot.seen()) points.push_back({plot.time, *plot.position<2>()});
+  for (const Detection& detection : waiting)
+    if (detection.seen()) points.push_back({detection.time, *detection.position<2>()});
   if (points.size() < 3) return std::nullopt;
   const auto* last = points.data() + points.size() - 3;
   const auto narrow = two_point_start(last[1], last[2]);
@@ -24,8 +24,8 @@ auto waiting_target(const TargetRules& rules) { return Target{imm(), start_from_
 
 /// A filter as it stands after a start from three points.
 template <class Filter>
-Filter started(Filter filter, const std::array<Plot, 3>& plots) {
-  filter.restart(start_from_three(plots, 0)->estimates);
+Filter started(Filter filter, const std::array<Detection, 3>& detections) {
+  filter.restart(start_from_three(detections, 0)->estimates);
   return filter;
 }
 
@@ -33,15 +33,15 @@ TEST(TargetStart, SeveralPointsWaitUntilTheyAreEnough) {
   with_every_filter([](const auto& filter) {
     Target target{filter, start_from_three};
     std::vector<std::pair<double, bool>> told;
-    const auto take = [&](const Plot& plot) {
-      return target.take(plot, [&](const Plot& each, bool is_start) {
+    const auto take = [&](const Detection& detection) {
+      return target.take(detection, [&](const Detection& each, bool is_start) {
         told.push_back({each.time, is_start});
         EXPECT_TRUE(target.running());
       });
     };
     EXPECT_FALSE(target.running());
     EXPECT_EQ(take({1.0, at(0, 0)}), Verdict::waiting);
-    EXPECT_EQ(take(Plot(2.0)), Verdict::waiting) << "there was none";
+    EXPECT_EQ(take(Detection(2.0)), Verdict::waiting) << "there was none";
     EXPECT_EQ(take({3.0, at(200, 0)}), Verdict::waiting);
     EXPECT_FALSE(target.running());
     EXPECT_EQ(target.starts(), 0U);
@@ -50,7 +50,8 @@ TEST(TargetStart, SeveralPointsWaitUntilTheyAreEnough) {
     EXPECT_EQ(target.time(), 4.0);
     EXPECT_EQ(target.accepted_time(), 4.0);
     EXPECT_EQ(target.starts(), 1U);
-    auto expected = started(filter, {Plot(1.0, at(0, 0)), Plot(3.0, at(200, 0)), Plot(4.0, at(310, 10))});
+    auto expected =
+        started(filter, {Detection(1.0, at(0, 0)), Detection(3.0, at(200, 0)), Detection(4.0, at(310, 10))});
     EXPECT_PRED_FORMAT2(same_filter, target.filter(), expected);
     EXPECT_EQ(take({5.0, at(400, 0)}), Verdict::accepted);
     expected.step(1.0, at(400, 0), PositionSensor<2>{});
@@ -61,80 +62,83 @@ TEST(TargetStart, SeveralPointsWaitUntilTheyAreEnough) {
 
 TEST(TargetStart, APolicyThatWantsSeveralIsAskedWithThoseThatWereRejected) {
   auto target = waiting_target({0.999, 3});
-  for (int k = 0; k < 3; ++k) target.take(Plot(k, at(100.0 * k, 0.0)));
+  for (int k = 0; k < 3; ++k) target.take(Detection(k, at(100.0 * k, 0.0)));
   ASSERT_TRUE(target.running());
-  EXPECT_EQ(target.take(Plot(3.0, at(50e3, 0))), Verdict::rejected);
+  EXPECT_EQ(target.take(Detection(3.0, at(50e3, 0))), Verdict::rejected);
   EXPECT_EQ(target.take(4.0), Verdict::missed);
-  EXPECT_EQ(target.take(Plot(5.0, at(50.4e3, 0))), Verdict::rejected);
-  EXPECT_EQ(target.take(Plot(6.0, at(50.6e3, 0))), Verdict::restarted);
+  EXPECT_EQ(target.take(Detection(5.0, at(50.4e3, 0))), Verdict::rejected);
+  EXPECT_EQ(target.take(Detection(6.0, at(50.6e3, 0))), Verdict::restarted);
   EXPECT_EQ(target.starts(), 2U);
   EXPECT_EQ(target.rejected(), 3U);
-  EXPECT_PRED_FORMAT2(same_filter, target.filter(),
-                      started(imm(), {Plot(3.0, at(50e3, 0)), Plot(5.0, at(50.4e3, 0)), Plot(6.0, at(50.6e3, 0))}));
-  EXPECT_EQ(target.take(Plot(7.0, at(50.8e3, 0))), Verdict::accepted);
+  EXPECT_PRED_FORMAT2(
+      same_filter, target.filter(),
+      started(imm(), {Detection(3.0, at(50e3, 0)), Detection(5.0, at(50.4e3, 0)), Detection(6.0, at(50.6e3, 0))}));
+  EXPECT_EQ(target.take(Detection(7.0, at(50.8e3, 0))), Verdict::accepted);
 }
 
 TEST(TargetStart, WhereTwoRejectionsAreTooFewForAStartItWaitsForTheThird) {
   auto target = waiting_target({0.999, 2});
-  for (int k = 0; k < 3; ++k) target.take(Plot(k, at(100.0 * k, 0.0)));
-  EXPECT_EQ(target.take(Plot(3.0, at(50e3, 0))), Verdict::rejected);
-  EXPECT_EQ(target.take(Plot(4.0, at(50.2e3, 0))), Verdict::waiting);
+  for (int k = 0; k < 3; ++k) target.take(Detection(k, at(100.0 * k, 0.0)));
+  EXPECT_EQ(target.take(Detection(3.0, at(50e3, 0))), Verdict::rejected);
+  EXPECT_EQ(target.take(Detection(4.0, at(50.2e3, 0))), Verdict::waiting);
   EXPECT_FALSE(target.running());
-  EXPECT_EQ(target.take(Plot(5.0, at(50.4e3, 0))), Verdict::restarted);
+  EXPECT_EQ(target.take(Detection(5.0, at(50.4e3, 0))), Verdict::restarted);
 }
 
 TEST(TargetStart, AfterAGapItWaitsAnew) {
   auto target = waiting_target({0.999, 3, 5.0});
-  for (int k = 0; k < 3; ++k) target.take(Plot(k, at(100.0 * k, 0.0)));
-  EXPECT_EQ(target.take(Plot(3.0, at(50e3, 0))), Verdict::rejected);
-  EXPECT_EQ(target.take(Plot(8.0, at(200, 0))), Verdict::waiting);
-  EXPECT_EQ(target.take(Plot(9.0, at(300, 0))), Verdict::waiting);
-  EXPECT_EQ(target.take(Plot(10.0, at(400, 0))), Verdict::restarted) << "the rejected one before the gap is forgotten";
+  for (int k = 0; k < 3; ++k) target.take(Detection(k, at(100.0 * k, 0.0)));
+  EXPECT_EQ(target.take(Detection(3.0, at(50e3, 0))), Verdict::rejected);
+  EXPECT_EQ(target.take(Detection(8.0, at(200, 0))), Verdict::waiting);
+  EXPECT_EQ(target.take(Detection(9.0, at(300, 0))), Verdict::waiting);
+  EXPECT_EQ(target.take(Detection(10.0, at(400, 0))), Verdict::restarted)
+      << "the rejected one before the gap is forgotten";
 }
 
 TEST(TargetStart, WhereThereIsNoRoomAMissGoesFirstAndThenTheOldest) {
   std::vector<std::vector<double>> asked;
-  const auto never = [&](Plots waiting, std::size_t) -> std::optional<StartAt<Starts>> {
+  const auto never = [&](Detections waiting, std::size_t) -> std::optional<StartAt<Starts>> {
     asked.emplace_back();
-    for (const Plot& plot : waiting) asked.back().push_back(plot.time);
+    for (const Detection& detection : waiting) asked.back().push_back(detection.time);
     return std::nullopt;
   };
   TargetRules rules;
   rules.waiting = 3;
   Target target{imm(), never, rules};
-  for (const Plot& plot : {Plot(1.0, near_by), Plot(2.0), Plot(3.0, near_by), Plot(4.0, near_by), Plot(5.0, near_by)})
-    target.take(plot);
+  for (const Detection& detection : {Detection(1.0, near_by), Detection(2.0), Detection(3.0, near_by),
+                                     Detection(4.0, near_by), Detection(5.0, near_by)})
+    target.take(detection);
   EXPECT_EQ(asked, (std::vector<std::vector<double>>{{1}, {1, 2}, {1, 2, 3}, {1, 3, 4}, {3, 4, 5}}));
 }
 
-TEST(TargetStart, PlotsThatWaitComeInTheOrderOfTheirTimes) {
+TEST(TargetStart, DetectionsThatWaitComeInTheOrderOfTheirTimes) {
   auto strict = waiting_target({});
-  strict.take(Plot(2.0, at(200, 0)));
-  EXPECT_INVALID(("1.0", "2.0"), strict.take(Plot(1.0, at(100, 0))));
+  strict.take(Detection(2.0, at(200, 0)));
+  EXPECT_INVALID(("1.0", "2.0"), strict.take(Detection(1.0, at(100, 0))));
 
   TargetRules rules;
   rules.buffer = 3;
   auto target = waiting_target(rules), in_order = target;
-  const std::vector all{Plot(1.0, at(100, 0)), Plot(2.0, at(200, 0)), Plot(3.0, at(310, 0))};
+  const std::vector all{Detection(1.0, at(100, 0)), Detection(2.0, at(200, 0)), Detection(3.0, at(310, 0))};
   EXPECT_EQ(target.take(all[1]), Verdict::waiting);
   EXPECT_EQ(target.take(all[2]), Verdict::waiting);
   target.take(all[0]);
   EXPECT_TRUE(target.running());
-  for (const Plot& plot : all) in_order.take(plot);
+  for (const Detection& detection : all) in_order.take(detection);
   EXPECT_PRED_FORMAT2(same_filter, target.filter(), in_order.filter());
 }
 
-TEST(TargetStart, AGivenStartTakesThePlotsThatWaitedAsSteps) {
+TEST(TargetStart, AGivenStartTakesTheDetectionsThatWaitedAsSteps) {
   const State given = starts()[2];
   std::vector<std::size_t> asked_after;
-  const auto start = [&](Plots waiting, std::size_t starts) -> std::optional<StartAt<State>> {
+  const auto start = [&](Detections waiting, std::size_t starts) -> std::optional<StartAt<State>> {
     asked_after.push_back(starts);
     if (waiting.size() < 2) return std::nullopt;
     return StartAt<State>{waiting.front().time - 0.5, given, false};
   };
   Target target{imm(), start, TargetRules{1.0}};
   std::vector<std::pair<double, bool>> told;
-  const auto tell = [&](const Plot& plot, bool is_start) { told.push_back({plot.time, is_start}); };
+  const auto tell = [&](const Detection& detection, bool is_start) { told.push_back({detection.time, is_start}); };
   EXPECT_EQ(target.take({1.0, at(12000, 8000)}, tell), Verdict::waiting);
   EXPECT_EQ(target.take({2.0, at(11900, 7900)}, tell), Verdict::started);
   auto expected = imm();

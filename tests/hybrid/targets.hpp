@@ -6,8 +6,8 @@
 namespace sigmax::support {
 
 using Imm = InteractingMultipleModel<Models, Random>;
-inline Imm imm(Lift lift = Lift::borrowed_variance) {
-  return {models_of(chosen(false)), transition_of<Random>(chosen(false)), starts(), Interaction<Random>{lift}};
+inline Imm imm(StateAugmentation augmentation = StateAugmentation::borrowed_variance) {
+  return {models_of(chosen(false)), transition_of<Random>(chosen(false)), starts(), Interaction<Random>{augmentation}};
 }
 
 /// Position as measured, at rest within 200 m/s and 20 m/s².
@@ -26,8 +26,8 @@ inline const Gaussian<2> far_off = at(50e3, 50e3), near_by = at(12000, 7990, 1e4
 
 /// The manoeuvring target at absolute times, no two alike, each with a tag; one measurement in ten is of something
 /// else, and from one on all are, so that the target is lost and starts again.
-inline std::vector<Plot> plots(std::size_t count, std::size_t lost_from = 1000) {
-  std::vector<Plot> result;
+inline std::vector<Detection> detections(std::size_t count, std::size_t lost_from = 1000) {
+  std::vector<Detection> result;
   double time = 0.0;
   for (const Scan& scan : manoeuvring_target(count)) {
     time += std::max(scan.dt, 0.05);
@@ -46,8 +46,9 @@ inline std::vector<Plot> plots(std::size_t count, std::size_t lost_from = 1000) 
 
 /// The same shuffled: within groups of so many, but for the first ones.
 template <class Turn>
-std::vector<Plot> late(const std::vector<Plot>& plots, std::size_t first, std::size_t by, const Turn& turn) {
-  std::vector<Plot> order = plots;
+std::vector<Detection> late(const std::vector<Detection>& detections, std::size_t first, std::size_t by,
+                            const Turn& turn) {
+  std::vector<Detection> order = detections;
   for (std::size_t k = first; k + by < order.size(); k += by) {
     const auto from = order.begin() + static_cast<std::ptrdiff_t>(k);
     std::rotate(from, from + static_cast<std::ptrdiff_t>(turn()), from + static_cast<std::ptrdiff_t>(by));

@@ -45,7 +45,7 @@ inline TargetChoice two_speeds(bool fuzzy) {
 
 /// A target that moves as `two_speeds` says, seen every second with these standard deviations, and its modes.
 struct Simulated {
-  std::vector<AnyPlot> plots;
+  std::vector<AnyDetection> detections;
   std::vector<std::size_t> modes;
 };
 inline Simulated simulate(const TargetChoice& choice, double sigma, std::size_t rows, std::uint64_t seed) {
@@ -57,20 +57,21 @@ inline Simulated simulate(const TargetChoice& choice, double sigma, std::size_t 
   std::array<double, 2> x{}, v{100.0, 50.0};
   for (std::size_t k = 0; k < rows; ++k) {
     if (uniform(generator) > choice.transition[mode][mode]) mode = 1 - mode;
-    AnyPlot plot{.time = static_cast<double>(k), .tag = k, .sensor = AnyPlot::Sensor::position, .size = 2};
+    AnyDetection detection{
+        .time = static_cast<double>(k), .tag = k, .sensor = AnyDetection::Sensor::position, .size = 2};
     for (std::size_t axis = 0; axis < 2; ++axis) {
       const double w = choice.motions[mode][MotionParameter::sigma_w] * normal(generator);
       x[axis] += v[axis] + 0.5 * w;
       v[axis] += w;
-      plot.z[axis] = x[axis] + sigma * normal(generator);
+      detection.z[axis] = x[axis] + sigma * normal(generator);
     }
-    result.plots.push_back(plot);
+    result.detections.push_back(detection);
     result.modes.push_back(mode);
   }
   return result;
 }
-inline void believe(std::vector<AnyPlot>& plots, double sigma) {
-  for (AnyPlot& plot : plots) plot.covariance = {sigma * sigma, 0.0, 0.0, sigma * sigma};
+inline void believe(std::vector<AnyDetection>& detections, double sigma) {
+  for (AnyDetection& detection : detections) detection.covariance = {sigma * sigma, 0.0, 0.0, sigma * sigma};
 }
 
 }  // namespace sigmax::support

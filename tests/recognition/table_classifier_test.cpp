@@ -81,8 +81,8 @@ Numbers possible(const Numbers& p, bool ratio) {
 }
 
 /// What is believed of a row, by plain counting.
-Numbers believed(const std::vector<Drawn>& table, const std::vector<std::size_t>& labels, const TableOptions& options,
-                 TableInference inference, std::size_t row) {
+Numbers with_sensor_noise(const std::vector<Drawn>& table, const std::vector<std::size_t>& labels,
+                          const TableOptions& options, TableInference inference, std::size_t row) {
   const bool sigma = inference == TableInference::sigma;
   const bool ratio = inference == TableInference::max_by_ratio || inference == TableInference::sigma_max_by_ratio;
   const bool fuzzy_sensor =
@@ -151,7 +151,7 @@ PROPERTY(TableClassifier, OfAllColumnsAndInferencesIsPlainCounting) {
       for (const Drawn& drawn : table) cells.push_back(drawn.cell(row));
       RC_ASSERT(classifier.readings(cells) == classifier.readings(columns, row));
       const TablePrediction found = classifier.predict(cells);
-      const Numbers expected = believed(table, labels, options, inference, row);
+      const Numbers expected = with_sensor_noise(table, labels, options, inference, row);
       Numbers belief;
       for (std::size_t c = 0; c < 3; ++c)
         belief.push_back(std::visit([&](const auto& one) { return one[c]; }, found.belief));

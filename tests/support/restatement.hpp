@@ -265,7 +265,7 @@ enum class Kind { imm, himm };
 enum class Order { interacting, second_order, histories };  // When predecessors merge: before z, after it, never.
 enum class Weights { correct, released };                   // Which weights mix the covariance in (59).
 enum class MixedCovariance { selected, own, own_recentred, released, envelope };  // The readings of (57).
-enum class Lift { zero, borrowed_variance, unbiased, prior };  // What a model lacks when it is received.
+enum class StateAugmentation { zero, borrowed_variance, unbiased, prior };  // What a model lacks when it is received.
 enum class Tie { stay, first, last };
 
 struct Options {
@@ -273,7 +273,7 @@ struct Options {
   Order order = Order::interacting;
   Weights mixing_weights = Weights::correct;
   MixedCovariance mixed_covariance = MixedCovariance::selected;
-  Lift lift = Lift::zero;
+  StateAugmentation augmentation = StateAugmentation::zero;
   Tie mixing_tie = Tie::stay;
   Tie output_tie = Tie::stay;
   bool common_start = false;           // One mixture for all models, by the weights before the step: GPB1.
@@ -362,17 +362,17 @@ class Filter {
   State estimate() const {
     const bool envelope = options_.mixed_covariance == MixedCovariance::envelope;
     if (options_.kind == Kind::himm && !envelope) return in_union(winner_);
-    std::vector<State> lifted;
+    std::vector<State> augmented;
     std::vector<double> weights;
     for (Index l = 0; l < models_.size(); ++l) {
-      lifted.push_back(in_union(l));
+      augmented.push_back(in_union(l));
       weights.push_back(std::exp(log_weights_[l]));
     }
-    if (envelope) return options_.envelope(lifted, weights);
-    State result = moments(lifted, weights, weights);
+    if (envelope) return options_.envelope(augmented, weights);
+    State result = moments(augmented, weights, weights);
     if (options_.output_spread_omitted)
-      for (Index l = 0; l < lifted.size(); ++l)
-        result.covariance = result.covariance - weights[l] * outer(difference(result.mean, lifted[l].mean));
+      for (Index l = 0; l < augmented.size(); ++l)
+        result.covariance = result.covariance - weights[l] * outer(difference(result.mean, augmented[l].mean));
     return result;
   }
 
@@ -453,29 +453,29 @@ class Filter {
 
   /// (58)–(59) with Σ^l.
   State averaged(Index j) const {
-    std::vector<State> lifted;
+    std::vector<State> augmented;
     Vector weights, covariance_weights;
     for (Index l = 0; l < models_.size(); ++l) {
-      lifted.push_back(received(l, j));
+      augmented.push_back(received(l, j));
       weights.push_back(std::exp(given(j)[l]));
       covariance_weights.push_back(options_.mixing_weights == Weights::correct || options_.common_start
                                        ? weights.back()
                                        : std::exp(given(l)[j]));
     }
-    return moments(lifted, weights, covariance_weights);
+    return moments(augmented, weights, covariance_weights);
   }
 
   /// (55)–(57).
   State selected(Index j) const {
     const Vector logs = given(j);
     if (options_.mixed_covariance == MixedCovariance::envelope) {
-      std::vector<State> lifted;
+      std::vector<State> augmented;
       Vector weights;
       for (Index l = 0; l < models_.size(); ++l) {
-        lifted.push_back(received(l, j));
+        augmented.push_back(received(l, j));
         weights.push_back(std::exp(logs[l]));
       }
-      return options_.envelope(lifted, weights);
+      return options_.envelope(augmented, weights);
     }
     const State winner = received(largest(logs, options_.mixing_tie, options_.common_start ? winner_ : j), j);
     const Matrix& own = states_[j].covariance;
@@ -535,8 +535,8 @@ class Filter {
   }
 
   /// The state of model `l` in some components, of which each lacking one is received by a model that has it.
-  State lifted(Index l, const std::vector<std::string>& components,
-               const std::function<Index(const std::string&)>& receiver_of) const {
+  State augmented(Index l, const std::vector<std::string>& components,
+                  const std::function<Index(const std::string&)>& receiver_of) const {
     const Index n = components.size();
     State result{Vector(n, 0.0), Matrix(n, n)};
     for (Index a = 0; a < n; ++a) {
@@ -548,10 +548,10 @@ class Filter {
             result.covariance(a, b) = states_[l].covariance(*from_a, *from_b);
         continue;
       }
-      if (options_.lift == Lift::zero) continue;
+      if (options_.augmentation == StateAugmentation::zero) continue;
       const Index receiver = receiver_of(components[a]);
       const Index own_a = *position(models_[receiver].components, components[a]);
-      if (options_.lift == Lift::borrowed_variance) {
+      if (options_.augmentation == StateAugmentation::borrowed_variance) {
         result.covariance(a, a) = states_[receiver].covariance(own_a, own_a);
         continue;
       }
@@ -566,12 +566,12 @@ class Filter {
   }
 
   State received(Index l, Index j) const {
-    return lifted(l, models_[j].components, [j](const std::string&) { return j; });
+    return augmented(l, models_[j].components, [j](const std::string&) { return j; });
   }
 
   /// Who receives a lacking component of the output: the most likely model that has it.
   State in_union(Index l) const {
-    return lifted(l, components_, [this](const std::string& name) {
+    return augmented(l, components_, [this](const std::string& name) {
       Vector candidates = log_weights_;
       Index first = models_.size();
       for (Index m = models_.size(); m-- > 0;) {

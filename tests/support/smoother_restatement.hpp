@@ -44,7 +44,7 @@ struct Step {
 
 struct Rules {
   Kind kind;
-  Lift lift;
+  StateAugmentation augmentation;
   restatement::Matrix transition;
 };
 
@@ -150,19 +150,19 @@ std::vector<Moment<Real>> smoothed(const std::vector<ModelOf<Real>>& models, con
       std::vector<Real> from;
       for (Index i = 0; i < M; ++i) {
         const auto& own = models[i].components;
-        Matrix<Real> B(n, own.size()), lifted(n, n), value(n, 1);
+        Matrix<Real> B(n, own.size()), augmented(n, n), value(n, 1);
         for (Index b = 0; b < n; ++b) {
           if (const auto at = position(own, models[j].components[b])) {
             for (Index a = 0; a < n; ++a) B(a, *at) = F(a, b);
             continue;
           }
-          if (rules.lift == Lift::unbiased) value(b, 0) = known.means[j](b, 0);
-          if (rules.lift == Lift::borrowed_variance) lifted(b, b) = known.covariances[j](b, b);
-          if (rules.lift == Lift::unbiased)
+          if (rules.augmentation == StateAugmentation::unbiased) value(b, 0) = known.means[j](b, 0);
+          if (rules.augmentation == StateAugmentation::borrowed_variance) augmented(b, b) = known.covariances[j](b, b);
+          if (rules.augmentation == StateAugmentation::unbiased)
             for (Index c = 0; c < n; ++c)
-              if (!position(own, models[j].components[c])) lifted(b, c) = known.covariances[j](b, c);
+              if (!position(own, models[j].components[c])) augmented(b, c) = known.covariances[j](b, c);
         }
-        const Matrix<Real> noise = Q + F * lifted * transposed(F);
+        const Matrix<Real> noise = Q + F * augmented * transposed(F);
         const auto& [Y, y] = evidence[j];
         const Matrix<Real> I = identity<Real>(n);
         parts[i][j] = {transposed(B) * solved(I + Y * noise, Y * B).first,
@@ -262,7 +262,8 @@ class Smoother : public Filter {
       models.push_back({model.components, [&](double dt) { return as<Real>(model.F(dt)); },
                         [&](double dt) { return as<Real>(model.Q(dt)); }, model.H});
     std::vector<Moment> result;
-    for (const auto& moment : smoothing::smoothed<Real>(models, {options_.kind, options_.lift, transition_}, steps_)) {
+    for (const auto& moment :
+         smoothing::smoothed<Real>(models, {options_.kind, options_.augmentation, transition_}, steps_)) {
       auto& plain = result.emplace_back();
       plain.log_weights.assign(moment.log_weights.begin(), moment.log_weights.end());
       for (Index j = 0; j < models.size(); ++j) {

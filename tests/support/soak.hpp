@@ -87,7 +87,7 @@ class SoakDraws {
   template <Uncertainty Kind>
   Interaction<Kind> interaction(bool holds_the_position) {
     Interaction<Kind> interaction;
-    interaction.lift = static_cast<Lift>(below(3));
+    interaction.augmentation = static_cast<StateAugmentation>(below(3));
     interaction.output_tie = static_cast<Tie>(below(3));
     if constexpr (SelectiveAlgebra<AlgebraOf<Kind>>)
       interaction.collapse = {static_cast<MixedCovariance>(below(4)), static_cast<Tie>(below(3))};

@@ -11,31 +11,31 @@ namespace tuning_walk_test {
 /// A target of one motion, and what is seen of it to 2 m.
 struct Seen {
   TargetChoice choice;
-  std::vector<AnyPlot> plots;
+  std::vector<AnyDetection> detections;
 };
 Seen seen(std::size_t rows) {
   TargetChoice choice = two_speeds(false);
   choice.motions.resize(1);
   choice.models.resize(1);
   choice.transition = {{1.0}};
-  return {choice, simulate(choice, 2.0, rows, 7).plots};
+  return {choice, simulate(choice, 2.0, rows, 7).detections};
 }
 
 TEST(Tune, FindsTheSettingsThatMadeTheData) {
   Seen target = seen(400);
   TargetChoice& choice = target.choice;
-  std::vector<AnyPlot>& plots = target.plots;
+  std::vector<AnyDetection>& detections = target.detections;
   choice.motions[0][MotionParameter::sigma_w] = 30.0;
-  const TrackScale scale({plots});
+  const TrackScale scale({detections});
   auto numbers = motion_numbers(choice, scale);
   numbers.push_back({{.name = "sigma_m", .start = 10.0, .least = 0.01, .most = 100.0},
-                     [&](TargetChoice&, double sigma) { believe(plots, sigma); }});
-  const RobustLoss robust({plots}, scale);
+                     [&](TargetChoice&, double sigma) { believe(detections, sigma); }});
+  const RobustLoss robust({detections}, scale);
   const TuneProblem problem{parameters_of(numbers), [&](const std::vector<double>& x) {
                               for (std::size_t i = 0; i < x.size(); ++i) numbers[i].set(choice, x[i]);
-                              return RowLosses{robust(0, log_scores(choice, plots))};
+                              return RowLosses{robust(0, log_scores(choice, detections))};
                             }};
-  const Tuned tuned = tune(problem, folds_of(std::array{plots.size()}, 4));
+  const Tuned tuned = tune(problem, folds_of(std::array{detections.size()}, 4));
   const std::vector<double> errors = standard_errors(problem, tuned);
   const std::array known = {1.0, 2.0};
   for (std::size_t i = 0; i < known.size(); ++i) {
@@ -43,28 +43,28 @@ TEST(Tune, FindsTheSettingsThatMadeTheData) {
     EXPECT_LT(std::abs(std::log(tuned.fit.values[i] / known[i])), 3.0 * errors[i]) << i;
   }
   EXPECT_NEAR(mean_loss(tuned.held_out), tuned.fit.loss, 0.02);
-  EXPECT_EQ(tune(problem, folds_of(std::array{plots.size()}, 4)).fit.values, tuned.fit.values);
+  EXPECT_EQ(tune(problem, folds_of(std::array{detections.size()}, 4)).fit.values, tuned.fit.values);
 }
 
 TEST(Tune, SaysThatANumberOfAModeWhichNoRowIsInIsNotIdentifiable) {
   Seen target = seen(200);
   TargetChoice& choice = target.choice;
-  std::vector<AnyPlot>& plots = target.plots;
-  believe(plots, 2.0);
+  std::vector<AnyDetection>& detections = target.detections;
+  believe(detections, 2.0);
   choice.motions.push_back(choice.motions[0]);
   choice.motions[1][MotionParameter::sigma_w] = 3.0;
   choice.models = {"calm", "never"};
   choice.transition = {{1.0 - 1e-9, 1e-9}, {0.5, 0.5}};
-  const TrackScale scale({plots});
+  const TrackScale scale({detections});
   const auto numbers = motion_numbers(choice, scale);
   const TuneProblem problem{
       parameters_of(numbers),
       [&](const std::vector<double>& x) {
         for (std::size_t i = 0; i < x.size(); ++i) numbers[i].set(choice, x[i]);
-        return RowLosses{log_scores(choice, plots)};
+        return RowLosses{log_scores(choice, detections)};
       },
       [](const RowLosses& scores, const RowCounts& counts) { return -mean_loss(scores, counts); }};
-  const auto errors = standard_errors(problem, tune(problem, folds_of(std::array{plots.size()}, 2)));
+  const auto errors = standard_errors(problem, tune(problem, folds_of(std::array{detections.size()}, 2)));
   EXPECT_LT(errors[0], 0.3);
   EXPECT_TRUE(std::isinf(errors[1])) << errors[1];
 }
@@ -84,9 +84,9 @@ TEST(TransitionNumbers, KeepRowsNormalisedAndSojournTimesTheirOrder) {
 }
 
 TEST(RobustLoss, BoundsWhatAStrayDetectionLosesAndRefusesManyOfThem) {
-  const auto plots = seen(100).plots;
-  const RobustLoss robust({plots}, TrackScale({plots}));
-  std::vector<double> scores(plots.size(), -5.0);
+  const auto detections = seen(100).detections;
+  const RobustLoss robust({detections}, TrackScale({detections}));
+  std::vector<double> scores(detections.size(), -5.0);
   const double usual = robust(0, scores)[3];
   scores[3] = -infinity;
   const RowLosses one = {robust(0, scores)};

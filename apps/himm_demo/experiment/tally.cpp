@@ -56,15 +56,15 @@ Sample sample_of(const TargetPoint& point, const Vector<6>& truth) {
 }
 
 /// What the experiment's radar saw, sample by sample, as the filter takes it; the tag is the sample, from 0.
-std::vector<AnyPlot> plots_of(const FilterSettings& filter, double step_s, std::span<const Polar> seen) {
-  std::vector<AnyPlot> plots;
+std::vector<AnyDetection> detections_of(const FilterSettings& filter, double step_s, std::span<const Polar> seen) {
+  std::vector<AnyDetection> detections;
   for (const auto& [range, azimuth, elevation] : seen) {
-    const std::array z = {range, azimuth, elevation}, unknown = {nan, nan, nan};
-    AnyPlot plot = AnyPlot::polar(step_s * static_cast<double>(plots.size()), z, unknown);
-    plot.tag = plots.size();
-    plots.push_back(believed(filter, "", plot, 3));
+    const std::array z = {range, azimuth.radians(), elevation.radians()}, unknown = {nan, nan, nan};
+    AnyDetection detection = AnyDetection::polar(step_s * static_cast<double>(detections.size()), z, unknown);
+    detection.tag = detections.size();
+    detections.push_back(with_sensor_noise(filter, "", detection, 3));
   }
-  return plots;
+  return detections;
 }
 
 }  // namespace
@@ -84,13 +84,13 @@ TracedRun Experiment::traced(std::uint64_t number) const {
     const auto visit = [&, &truth = run.truth](const TargetPoint& point) {
       run.traces[f + 1][point.tag] = sample_of(point, truth[point.tag]);
     };
-    const auto plots = plots_of(filter, scenario.step_s, measured);
+    const auto detections = detections_of(filter, scenario.step_s, measured);
     AnyTarget target(choice_of(filter, 3));
-    for (std::size_t k = 0; k < plots.size(); ++k) try {
-        target.follow({&plots[k], 1}, [&](const TargetPoint& point) {
+    for (std::size_t k = 0; k < detections.size(); ++k) try {
+        target.follow({&detections[k], 1}, [&](const TargetPoint& point) {
           if (!filter.smooth) visit(point);
         });
-        if (filter.smooth && k + 1 == plots.size()) target.smoothed(visit);
+        if (filter.smooth && k + 1 == detections.size()) target.smoothed(visit);
       } catch (const std::exception& error) {
         throw std::runtime_error(
             fmt::format("run {}, filter '{}', sample {}: {}", number + 1, filter.name, k + 1, error.what()));

@@ -88,9 +88,9 @@ LineChart consistency_chart(const Tally& tally, const char* title, const std::st
 }
 
 /// The track of the first run; with an error ellipse of each filter at a few samples.
-Plan plan(const Tally& tally) {
+MapChart plan(const Tally& tally) {
   const TracedRun run = tally.experiment.traced(0);
-  Plan plan{.title = "Track of run 1", .x_label = "x, m", .y_label = "y, m"};
+  MapChart plan{.title = "Track of run 1", .x_label = "x, m", .y_label = "y, m"};
   const auto seen_by = [&](std::size_t of, std::size_t k) -> Vector<3> {
     return run.truth[k].head<3>() + run.traces[of][k].error;
   };

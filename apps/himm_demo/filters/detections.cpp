@@ -8,53 +8,55 @@
 namespace sigmax::apps {
 namespace {
 
-/// What is believed of a number of a plot, if it is taken for a measurement.
-std::optional<double> sigma_of(const Accuracy& accuracy, const AnyPlot& plot, std::size_t i, int axes) {
-  if (plot.sensor == AnyPlot::Sensor::bearing) return accuracy.radar[1];
-  if (plot.sensor == AnyPlot::Sensor::components) {
-    if (plot.places[i] >= axes) return accuracy.velocity_mps;
-    return accuracy.position_m[accuracy.position_m.size() == 1 ? 0 : static_cast<std::size_t>(plot.places[i])];
+/// What is believed of a number of a detection, if it is taken for a measurement.
+std::optional<double> sigma_of(const SensorSettings& accuracy, const AnyDetection& detection, std::size_t i, int axes) {
+  if (detection.sensor == AnyDetection::Sensor::bearing) return accuracy.radar[1];
+  if (detection.sensor == AnyDetection::Sensor::components) {
+    if (detection.places[i] >= axes) return accuracy.velocity_mps;
+    return accuracy.position_m[accuracy.position_m.size() == 1 ? 0 : static_cast<std::size_t>(detection.places[i])];
   }
   return i < static_cast<std::size_t>(axes) ? std::optional(accuracy.radar[i]) : accuracy.range_rate_mps;
 }
 
 /// What a radar measured, as a position.
-AnyPlot converted(const AnyPlot& seen, RadarForm form) {
+AnyDetection converted(const AnyDetection& seen, RadarForm form) {
   const auto n = static_cast<std::size_t>(seen.size);
   Polar measured{seen.z[0], radians(seen.z[1])},
       sigma{std::sqrt(seen.variance(0)), radians(std::sqrt(seen.variance(1)))};
   if (n == 3) measured.elevation = radians(seen.z[2]), sigma.elevation = radians(std::sqrt(seen.variance(2)));
   const Gaussian<3> position = to_cartesian(measured, sigma, static_cast<Conversion>(form));
-  AnyPlot plot{.time = seen.time, .tag = seen.tag, .sensor = AnyPlot::Sensor::position, .size = seen.size};
+  AnyDetection detection{
+      .time = seen.time, .tag = seen.tag, .sensor = AnyDetection::Sensor::position, .size = seen.size};
   for (std::size_t i = 0; i < n; ++i) {
-    plot.z[i] = position.mean(static_cast<Eigen::Index>(i)) + seen.origin[i];
-    for (std::size_t j = 0; j < n; ++j) plot.covariance[i * n + j] = position.covariance.data()[i + 3 * j];
+    detection.z[i] = position.mean(static_cast<Eigen::Index>(i)) + seen.origin[i];
+    for (std::size_t j = 0; j < n; ++j) detection.covariance[i * n + j] = position.covariance.data()[i + 3 * j];
   }
-  return plot;
+  return detection;
 }
 
 }  // namespace
 
-AnyPlot believed(const FilterSettings& settings, std::string_view sensor, const AnyPlot& plot, int axes) {
-  const Accuracy& accuracy = settings.accuracy_of(sensor);
-  const auto size = static_cast<std::size_t>(plot.size);
-  AnyPlot taken = plot;
+AnyDetection with_sensor_noise(const FilterSettings& settings, std::string_view sensor, const AnyDetection& detection,
+                               int axes) {
+  const SensorSettings& accuracy = settings.accuracy_of(sensor);
+  const auto size = static_cast<std::size_t>(detection.size);
+  AnyDetection taken = detection;
   std::size_t n = 0;  // what is not taken, velocities and range rates, comes last
-  while (n < size && sigma_of(accuracy, plot, n, axes)) ++n;
+  while (n < size && sigma_of(accuracy, detection, n, axes)) ++n;
   taken.size = static_cast<int>(n);
   for (std::size_t i = 0; i < n; ++i) {
-    for (std::size_t j = 0; j < n; ++j) taken.covariance[i * n + j] = plot.covariance[i * size + j];
-    const double sigma = *sigma_of(accuracy, plot, i, axes);
-    if (std::isnan(plot.variance(static_cast<int>(i)))) taken.covariance[i * (n + 1)] = sigma * sigma;
+    for (std::size_t j = 0; j < n; ++j) taken.covariance[i * n + j] = detection.covariance[i * size + j];
+    const double sigma = *sigma_of(accuracy, detection, i, axes);
+    if (std::isnan(detection.variance(static_cast<int>(i)))) taken.covariance[i * (n + 1)] = sigma * sigma;
   }
-  using enum AnyPlot::Sensor;
+  using enum AnyDetection::Sensor;
   if (n == 0) {
     taken.sensor = none;
-  } else if (plot.sensor == doppler || plot.sensor == polar) {
+  } else if (detection.sensor == doppler || detection.sensor == polar) {
     taken.sensor = taken.size > axes ? doppler : polar;
     if (taken.size == axes && settings.radar_measurement != RadarForm::polar)
       return converted(taken, settings.radar_measurement);
-  } else if (plot.sensor == components && taken.size == axes && taken.places[n - 1] == axes - 1) {
+  } else if (detection.sensor == components && taken.size == axes && taken.places[n - 1] == axes - 1) {
     taken.sensor = position;
   }
   return taken;
@@ -66,10 +68,10 @@ SensorPlaces::SensorPlaces(const FilterSettings& settings, const RecordingReader
 }
 
 void SensorPlaces::place(Row& row) {
-  AnyPlot& plot = row.plot;
+  AnyDetection& detection = row.detection;
   const int axes = recording_.axes();
-  if (plot.sensor == AnyPlot::Sensor::components) {
-    const auto here = place_of(plot, axes);
+  if (detection.sensor == AnyDetection::Sensor::components) {
+    const auto here = place_of(detection, axes);
     if (!frame_ && recording_.geodetic() && recording_.seen_from_places() && here) frame_.emplace(*here, axes);
     return;
   }
@@ -82,9 +84,9 @@ void SensorPlaces::place(Row& row) {
   if (!at && !on_earth && !own.at_m.empty()) at = {own.at_m[0], own.at_m[1], own.at_m.size() == 3 ? own.at_m[2] : 0.0};
   if (on_earth) {
     if (!frame_) frame_.emplace(*on_earth, axes);
-    plot = seen_from(*on_earth, plot, *frame_, axes);
+    detection = seen_from(*on_earth, detection, *frame_, axes);
   } else {
-    plot.origin = at.value_or(otherwise_);
+    detection.origin = at.value_or(otherwise_);
     in_metres_ = true;
     if (!at) ++unplaced_[row.sensor];
   }
@@ -94,10 +96,10 @@ void SensorPlaces::place(Row& row) {
   if (frame_ && in_metres_ && !recording_.origin())
     refuse("some sensors or positions are on the Earth, by latitude and longitude, and others are not",
            "place all of them there, or say with --origin LAT,LON,ALT from where metres are counted");
-  const Position& first = stood_.try_emplace(row.sensor, plot.origin).first->second;
-  if (plot.sensor == AnyPlot::Sensor::doppler && first != plot.origin)
+  const Position& first = stood_.try_emplace(row.sensor, detection.origin).first->second;
+  if (detection.sensor == AnyDetection::Sensor::doppler && first != detection.origin)
     refuse("the sensor moves, and so its range rate is not the target's alone", "leave sigma_range_rate_mps out");
-  several_ |= plot.origin != stood_.begin()->second;
+  several_ |= detection.origin != stood_.begin()->second;
 }
 
 std::vector<std::string> SensorPlaces::notes() const {

@@ -208,15 +208,16 @@ bool turns(const FilterSettings& filter) {
 bool mixes(const FilterSettings& filter) {
   return filter.scheme == Scheme::interacting || filter.scheme == Scheme::common_start;
 }
-bool has_prior(const FilterSettings& filter) { return filter.lift == Lift::prior; }
+bool has_prior(const FilterSettings& filter) { return filter.augmentation == StateAugmentation::prior; }
 bool keeps_histories(const FilterSettings& filter) { return filter.scheme == Scheme::histories; }
 bool gates(const FilterSettings& filter) { return filter.gate_probability < 1.0; }
 bool given(const FilterSettings& filter) { return filter.start == StartRule::given; }
 
 /// The key of a list that has so many numbers.
 template <class Of>
-Key<Accuracy> of_sizes(const std::vector<std::size_t>& sizes, const std::string& expected, Of of, Key<Accuracy> key) {
-  key.read = [=, name = key.name, read = key.read](const Settings& settings, Accuracy& accuracy) {
+Key<SensorSettings> of_sizes(const std::vector<std::size_t>& sizes, const std::string& expected, Of of,
+                             Key<SensorSettings> key) {
+  key.read = [=, name = key.name, read = key.read](const Settings& settings, SensorSettings& accuracy) {
     read(settings, accuracy);
     if (std::ranges::find(sizes, std::invoke(of, accuracy).size()) == sizes.end()) throw settings.error(name, expected);
   };
@@ -307,7 +308,7 @@ const std::vector<FilterKey>& filter_keys() {
       only([](const F& f) { return !f.fuzzy; }, choice("output_spread", &F::output_spread, {"included", "omitted"})),
       // Likelihoods, what a model lacks, histories, and the output.
       choice("likelihood", &F::likelihood, {"density", "possibility"}),
-      choice("lift", &F::lift, {"zero", "borrowed_variance", "unbiased", "prior"}),
+      choice("augmentation", &F::augmentation, {"zero", "borrowed_variance", "unbiased", "prior"}),
       only(has_prior, value<F>(
                           "entry_scales", [](F& f) -> std::vector<double>& { return f.entry.scales; }, positive)),
       only(has_prior, value<F>(
@@ -337,8 +338,8 @@ const std::vector<FilterKey>& filter_keys() {
   return keys;
 }
 
-const std::vector<Key<Accuracy>>& accuracy_keys() {
-  using A = Accuracy;
+const std::vector<Key<SensorSettings>>& accuracy_keys() {
+  using A = SensorSettings;
   constexpr std::string_view small = "a covariance is positive definite: give a small one rather than 0";
   const auto radar = [](std::size_t i) { return [i](A& accuracy) -> double& { return accuracy.radar[i]; }; };
   const auto at = [](A& accuracy) -> std::vector<double>& { return accuracy.place.at_m; };
@@ -383,8 +384,8 @@ std::vector<FilterSettings> filters_for(RecordingOptions& recording, const Filte
   auto filters = read_filters(settings, defaults);
   settings.refuse_unknown();
   for (const auto& filter : filters) {
-    recording.velocity |= filter.knows(&Accuracy::velocity_mps);
-    recording.range_rate |= filter.knows(&Accuracy::range_rate_mps);
+    recording.velocity |= filter.knows(&SensorSettings::velocity_mps);
+    recording.range_rate |= filter.knows(&SensorSettings::range_rate_mps);
     auto all = filter.sensors;
     all.emplace("", filter.accuracy);
     for (const auto& [sensor, own] : all) {
@@ -401,7 +402,9 @@ std::vector<FilterSettings> filters_for(RecordingOptions& recording, const Filte
 
 void add_filter_options(Subcommand app, FilterOptions& options) {
   app.option("--config", options.config, "Settings in TOML").type("FILE.toml");
-  app.option("--set", options.sets, "One setting, as lift=unbiased; may be repeated").type("KEY=VALUE").repeated();
+  app.option("--set", options.sets, "One setting, as augmentation=unbiased; may be repeated")
+      .type("KEY=VALUE")
+      .repeated();
   app.flag("--print-config", options.print_config, "Print the settings in force and stop");
 }
 

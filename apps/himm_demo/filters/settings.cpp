@@ -16,7 +16,7 @@ struct KnownFilter {
 /// The filter over histories: a rare manoeuvre that begins with any acceleration and then hardly changes it.
 FilterSettings& keep_histories(FilterSettings& own) {
   own.scheme = Scheme::histories;
-  own.lift = Lift::prior;
+  own.augmentation = StateAugmentation::prior;
   own.leaving_possibility = own.leaving_probability = 0.004;
   own.leaving_a_manoeuvre = 0.03;
   for (MotionChoice& motion : own.motions)
@@ -121,8 +121,8 @@ void refuse_bad_combinations(const Settings& settings, const FilterSettings& fil
   const std::size_t modes = filter.models.size();
   if (filter.scheme == Scheme::histories && filter.histories < modes)
     throw settings.error("histories", fmt::format("{} or more, one for each model", modes));
-  if (filter.lift == Lift::prior && filter.entry.scales.empty())
-    throw settings.error("entry_scales", "one or more, since lift = \"prior\"");
+  if (filter.augmentation == StateAugmentation::prior && filter.entry.scales.empty())
+    throw settings.error("entry_scales", "one or more, since augmentation = \"prior\"");
   if (!filter.sojourn_s.empty() && (modes < 2 || filter.sojourn_s.size() != modes))
     throw settings.error("sojourn_s", "a mean sojourn time, in s, for each of two models or more");
   if (filter.start != StartRule::given) return;
@@ -133,7 +133,7 @@ void refuse_bad_combinations(const Settings& settings, const FilterSettings& fil
 }
 
 /// Throws where they say in two ways where the sensor stands, or not wholly.
-void read_sensor(const Settings& settings, Accuracy& sensor) {
+void read_sensor(const Settings& settings, SensorSettings& sensor) {
   const bool in_metres = settings.has("at");
   const bool on_earth = settings.has("latitude_deg") || settings.has("longitude_deg") || settings.has("altitude_m");
   if (in_metres && on_earth)
@@ -195,7 +195,7 @@ FilterDefaults FilterDefaults::of(Preset preset) {
   FilterSettings& filter = defaults.filter;
   if (preset == Preset::paper_text) {
     filter.mixed_covariance = MixedCovariance::own;
-    filter.lift = Lift::zero;
+    filter.augmentation = StateAugmentation::zero;
   } else {
     filter.leaving_possibility = 0.2;
     filter.mixed_covariance = MixedCovariance::released;

@@ -28,7 +28,7 @@ struct SensorPlace {
 };
 
 /// A sensor's standard deviations, as a filter believes them, and where it stands.
-struct Accuracy {
+struct SensorSettings {
   std::array<double, 3> radar{10.0, 0.1 * degree, 0.1 * degree};  ///< of range, azimuth and elevation, in m and rad
   std::vector<double> position_m{10.0};  ///< of measurements that are no radar's: one, or one an axis
   std::optional<double> velocity_mps;    ///< of each component; without it a velocity is not taken for a measurement
@@ -51,15 +51,15 @@ struct FilterSettings : TargetChoice {
   bool explain = false;                       ///< whether the best history of the mode is told with its dates
   bool smooth = false;                        ///< whether the output is of the whole recording rather than the past
   RadarForm radar_measurement = RadarForm::standard;
-  Accuracy accuracy;
-  std::map<std::string, Accuracy, std::less<>> sensors;  ///< those with an accuracy of their own
+  SensorSettings accuracy;
+  std::map<std::string, SensorSettings, std::less<>> sensors;  ///< those with an accuracy of their own
 
-  const Accuracy& accuracy_of(std::string_view sensor) const {
+  const SensorSettings& accuracy_of(std::string_view sensor) const {
     const auto own = sensors.find(sensor);
     return own == sensors.end() ? accuracy : own->second;
   }
   /// Whether an accuracy, of whatever sensor, has this.
-  bool knows(std::optional<double> Accuracy::*sigma) const {
+  bool knows(std::optional<double> SensorSettings::*sigma) const {
     return (accuracy.*sigma).has_value() ||
            std::ranges::any_of(sensors, [=](const auto& own) { return (own.second.*sigma).has_value(); });
   }
@@ -73,7 +73,8 @@ TargetChoice choice_of(const FilterSettings& settings, int axes);
 
 /// What a sensor saw, as a filter takes it: a variance that is NaN is that which the filter believes; what it does not
 /// take for a measurement is left out, and a radar's is converted if the settings say so.
-AnyPlot believed(const FilterSettings& settings, std::string_view sensor, const AnyPlot& plot, int axes);
+AnyDetection with_sensor_noise(const FilterSettings& settings, std::string_view sensor, const AnyDetection& detection,
+                               int axes);
 
 /// Where the sensors of a recording stand: where its rows or the settings of a filter say, or else all at one place.
 class SensorPlaces {
@@ -154,7 +155,7 @@ struct Key {
 const std::vector<Key<FilterSettings>>& filter_keys();
 
 /// Those of a sensor, which a filter has too.
-const std::vector<Key<Accuracy>>& accuracy_keys();
+const std::vector<Key<SensorSettings>>& accuracy_keys();
 
 /// --config, --set and --print-config.
 struct FilterOptions {

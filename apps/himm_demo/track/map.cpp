@@ -15,7 +15,7 @@ void add(const Position& at, bool high, PlanTrace& trace) {
 }
 
 /// Least and greatest x and y of all but the outermost places, with a margin, where those are so many times as far.
-std::vector<double> usual_bounds(const Plan& plan, double times) {
+std::vector<double> usual_bounds(const MapChart& plan, double times) {
   std::vector<double> bounds;
   bool far = false;
   for (const auto axis : {&PlanTrace::x, &PlanTrace::y}) {
@@ -49,15 +49,15 @@ PlanTrace TrackPage::traced(PlanTrace made, const Track& track, std::size_t from
   return made;
 }
 
-Plan TrackPage::plan(const std::string& name, const Track& track) const {
+MapChart TrackPage::plan(const std::string& name, const Track& track) const {
   const bool geodetic = track.anchor.has_value();
-  Plan plan{.title = name == "all rows" ? "Track" : "Track " + name,
-            .x_label = geodetic ? "east, m" : "x, m",
-            .y_label = geodetic ? "north, m" : "y, m"};
+  MapChart plan{.title = name == "all rows" ? "Track" : "Track " + name,
+                .x_label = geodetic ? "east, m" : "x, m",
+                .y_label = geodetic ? "north, m" : "y, m"};
   const auto put = [&](PlanTrace made) {
     if (!made.x.empty()) plan.traces.push_back(std::move(made));
   };
-  put(traced({measurement_name, measurement_name, PlanTrace::Shape::dots}, track, plot_at));
+  put(traced({measurement_name, measurement_name, PlanTrace::Shape::dots}, track, detection_at));
   if (truth_known_) put(traced({truth_name, truth_name}, track, truth_at));
   for (std::size_t f = 0; f < filters_.size(); ++f)
     put(traced({filters_[f].name, filters_[f].name}, track, column(f, position_at)));
@@ -80,19 +80,19 @@ Plan TrackPage::plan(const std::string& name, const Track& track) const {
 }
 
 /// A line for each track, or its measurements where there is no estimate; in one frame, and with fewer places.
-Plan TrackPage::map_of_all() const {
+MapChart TrackPage::map_of_all() const {
   const bool geodetic = recording_.on_the_earth();
-  Plan plan{.title = "All tracks",
-            .x_label = geodetic ? "east, m" : "x, m",
-            .y_label = geodetic ? "north, m" : "y, m",
-            .note = "A click on a track opens it."};
+  MapChart plan{.title = "All tracks",
+                .x_label = geodetic ? "east, m" : "x, m",
+                .y_label = geodetic ? "north, m" : "y, m",
+                .note = "A click on a track opens it."};
   const std::size_t step = 1 + kept_ / most_on_map;
   std::optional<LocalFrame> frame;
   for (const Named* const one : longest_first()) {
     const auto& [name, track] = *one;
     const bool followed = track.estimates > 0;
     PlanTrace made{.name = name, .shape = followed ? PlanTrace::Shape::line : PlanTrace::Shape::dots};
-    made = traced(std::move(made), track, followed ? column(0, position_at) : plot_at, step);
+    made = traced(std::move(made), track, followed ? column(0, position_at) : detection_at, step);
     if (track.anchor) {
       const LocalFrame own(*track.anchor, recording_.axes());
       if (!frame) frame = own;

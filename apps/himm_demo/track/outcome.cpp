@@ -5,17 +5,17 @@ namespace {
 
 /// Which accuracies nobody gave, neither the row nor a key.
 void find_defaults(const Row& row, int axes, const std::vector<FilterSettings>& filters, std::set<std::string>& found) {
-  using enum AnyPlot::Sensor;
-  static const Accuracy usual{};
+  using enum AnyDetection::Sensor;
+  static const SensorSettings usual{};
   static const std::array<std::pair<std::string, double>, 3> keys = {{{"sigma_position_m", usual.position_m.front()},
                                                                       {"sigma_range_m", usual.radar[0]},
                                                                       {"sigma_azimuth_deg", usual.radar[1] / degree}}};
-  const AnyPlot& plot = row.plot;
-  for (std::size_t i = 0; i < static_cast<std::size_t>(plot.size); ++i) {
-    const std::size_t k = plot.sensor == components ? (plot.places[i] < axes ? 0 : keys.size())
-                          : plot.sensor == bearing  ? 2
-                                                    : i + 1;
-    if (k < keys.size() && std::isnan(plot.variance(static_cast<int>(i))) &&
+  const AnyDetection& detection = row.detection;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(detection.size); ++i) {
+    const std::size_t k = detection.sensor == components ? (detection.places[i] < axes ? 0 : keys.size())
+                          : detection.sensor == bearing  ? 2
+                                                         : i + 1;
+    if (k < keys.size() && std::isnan(detection.variance(static_cast<int>(i))) &&
         std::ranges::none_of(filters, [&](const FilterSettings& filter) {
           return filter.accuracy_of(row.sensor).given.contains(keys[k].first);
         }))
@@ -60,32 +60,32 @@ std::string TrackTally::why_silent() const {
 }
 
 void TrackOutcome::count(const Row& row, const RecordingReader& recording, const std::vector<FilterSettings>& own) {
-  const int axes = recording.axes(), seen = axes_seen(row.plot, axes);
+  const int axes = recording.axes(), seen = axes_seen(row.detection, axes);
   ++rows;
   if (row.measured()) ++measurements;
   if (seen > 0 && seen < axes) ++partial;
-  if (row.plot.sensor == AnyPlot::Sensor::bearing) ++bearings;
+  if (row.detection.sensor == AnyDetection::Sensor::bearing) ++bearings;
   if (!recording.simulated()) find_defaults(row, axes, own, by_default);
   if (!recording.has_sensors()) return;
   ++sensors[row.sensor];
-  const auto known = [&](std::optional<double> Accuracy::*sigma) {
+  const auto known = [&](std::optional<double> SensorSettings::*sigma) {
     return std::ranges::any_of(
         own, [&](const FilterSettings& filter) { return (filter.accuracy_of(row.sensor).*sigma).has_value(); });
   };
-  if (is_moving(row.plot, axes) && !known(&Accuracy::velocity_mps))
+  if (is_moving(row.detection, axes) && !known(&SensorSettings::velocity_mps))
     ++unused["velocity does not count, for want of sensor.NAME.sigma_velocity_mps"][row.sensor];
-  if (row.plot.sensor == AnyPlot::Sensor::doppler && !known(&Accuracy::range_rate_mps))
+  if (row.detection.sensor == AnyDetection::Sensor::doppler && !known(&SensorSettings::range_rate_mps))
     ++unused["range rate does not count, for want of sensor.NAME.sigma_range_rate_mps"][row.sensor];
 }
 
 void TrackOutcome::judge_conversion(const Row& row, int axes, const std::vector<FilterSettings>& own) {
-  using enum AnyPlot::Sensor;
-  if ((row.plot.sensor != polar && row.plot.sensor != doppler) || row.plot.size < axes) return;
+  using enum AnyDetection::Sensor;
+  if ((row.detection.sensor != polar && row.detection.sensor != doppler) || row.detection.size < axes) return;
   for (const FilterSettings& filter : own) {
-    const Accuracy& accuracy = filter.accuracy_of(row.sensor);
-    if (filter.radar_measurement != RadarForm::standard || (row.plot.sensor == doppler && accuracy.range_rate_mps))
+    const SensorSettings& accuracy = filter.accuracy_of(row.sensor);
+    if (filter.radar_measurement != RadarForm::standard || (row.detection.sensor == doppler && accuracy.range_rate_mps))
       continue;
-    if (row.plot.z[0] * accuracy.radar[1] * accuracy.radar[1] / accuracy.radar[0] < most_conversion_bias) continue;
+    if (row.detection.z[0] * accuracy.radar[1] * accuracy.radar[1] / accuracy.radar[0] < most_conversion_bias) continue;
     return unsuited.add(row.line);
   }
 }

@@ -40,10 +40,10 @@ Moves moves_of(const std::array<double, 3>& velocity, const std::array<Position,
 TrackPage::Track* TrackPage::track_of(const Row& row) {
   if (const auto found = tracks_.find(row.track); found != tracks_.end()) return &found->second;
   if (tracks_.size() == most_tracks) return nullptr;
-  const double time = row.plot.time;
+  const double time = row.detection.time;
   const bool has_date = recording_.times_are_numbers() ? time >= 1e9 && time < 4e9 : !recording_.times_of_day();
   if (tracks_.empty() && has_date) clock_ = time;
-  std::vector<std::size_t> watched = {plot_error_at, plot_error_at + 1, plot_error_at + 2};
+  std::vector<std::size_t> watched = {detection_error_at, detection_error_at + 1, detection_error_at + 2};
   for (std::size_t f = 0; f < filters_.size(); ++f)
     for (std::size_t i = 0; i < weights_at + models_.size(); ++i)
       if (i < sigma_at || i == moves_at || i == moves_at + 4 || i == outlier_at || i >= weights_at)
@@ -57,7 +57,7 @@ TrackPage::Track* TrackPage::track_of(const Row& row) {
 
 /// Where a filter's columns are.
 std::size_t TrackPage::column(std::size_t filter, std::size_t i) const {
-  return plot_columns + filter * (weights_at + models_.size()) + i;
+  return detection_columns + filter * (weights_at + models_.size()) + i;
 }
 
 /// So many rows as make a page of some MB: a curve and its band take about 20 bytes a row.
@@ -105,25 +105,25 @@ void TrackPage::measured(const Row& row, const std::optional<Position>& position
   }
   if (anchor) track->anchor = anchor;
   track->last_position = position;
-  const bool is_seen_from =
-      row.plot.sensor != AnyPlot::Sensor::position && row.plot.sensor != AnyPlot::Sensor::components;
+  const bool is_seen_from = row.detection.sensor != AnyDetection::Sensor::position &&
+                            row.detection.sensor != AnyDetection::Sensor::components;
   if (is_seen_from && row.measured() && !row.sensor_at && !row.sensor_place)  // that does not move
-    stations_[row.plot.origin].insert(row.sensor.empty() ? "radar" : row.sensor);
-  std::vector<double>& numbers = this->numbers(*track, row.plot.time, row.line);
+    stations_[row.detection.origin].insert(row.sensor.empty() ? "radar" : row.sensor);
+  std::vector<double>& numbers = this->numbers(*track, row.detection.time, row.line);
   const int axes = recording_.axes();
   for (std::size_t i = 0; i < 3; ++i) {
     const int axis = static_cast<int>(i);
-    const bool is_seen = position && (axis >= axes || component_of(row.plot, axis) ||
-                                      (is_seen_from && axis < axes_seen(row.plot, axes)));
-    if (is_seen) numbers[plot_at + i] = (*position)[i];
+    const bool is_seen = position && (axis >= axes || component_of(row.detection, axis) ||
+                                      (is_seen_from && axis < axes_seen(row.detection, axes)));
+    if (is_seen) numbers[detection_at + i] = (*position)[i];
     if (row.truth) numbers[truth_at + i] = (*row.truth)[i];
-    if (is_seen && row.truth) numbers[plot_error_at + i] = (*position)[i] - (*row.truth)[i];
+    if (is_seen && row.truth) numbers[detection_error_at + i] = (*position)[i] - (*row.truth)[i];
   }
   if (row.truth) {  // from its last place to this one
     Position velocity{};
-    const bool moves = track->last_truth && row.plot.time > track->last_truth->first;
+    const bool moves = track->last_truth && row.detection.time > track->last_truth->first;
     for (std::size_t i = 0; moves && i < 3; ++i)
-      velocity[i] = ((*row.truth)[i] - track->last_truth->second[i]) / (row.plot.time - track->last_truth->first);
+      velocity[i] = ((*row.truth)[i] - track->last_truth->second[i]) / (row.detection.time - track->last_truth->first);
     if (moves && track->anchor) {
       const auto turn = LocalFrame(*track->anchor, recording_.axes()).local_axes(*row.truth);
       const Position there = velocity;
@@ -134,7 +134,7 @@ void TrackPage::measured(const Row& row, const std::optional<Position>& position
     constexpr double least_speed = 1.0;  // at rest a recorder's noise goes all ways
     for (std::size_t i = 0; moves && i < 3; ++i)
       if (i != 1 || all[0] >= least_speed) numbers[truth_moves_at + i] = all[2 * i];
-    if (moves || !track->last_truth) track->last_truth = {row.plot.time, *row.truth};
+    if (moves || !track->last_truth) track->last_truth = {row.detection.time, *row.truth};
   }
   constexpr std::size_t awaited = 2;  // a start may wait for the row after it
   if (!smooths_) close(*track, awaited);
@@ -194,7 +194,7 @@ void TrackPage::mark(const Row& row, std::size_t filter, bool rejection) {
   if (!track || (rejection && !track->last_position)) return;
   auto& marks = rejection ? track->rejections : track->restarts;
   if (marks.size() < most_marks)
-    marks.push_back({row.plot.time, filter, track->last_position.value_or(Position{nan, nan, nan})});
+    marks.push_back({row.detection.time, filter, track->last_position.value_or(Position{nan, nan, nan})});
 }
 
 }  // namespace sigmax::apps

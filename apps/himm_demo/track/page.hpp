@@ -40,7 +40,8 @@ class TrackPage {
   static constexpr std::size_t recent_rows = 20;  // whose mean NIS is drawn
 
   /// Columns of a measurement: its position, its error, where the target was, and its speed, course and climb.
-  static constexpr std::size_t plot_at = 0, plot_error_at = 3, truth_at = 6, truth_moves_at = 9, plot_columns = 12;
+  static constexpr std::size_t detection_at = 0, detection_error_at = 3, truth_at = 6, truth_moves_at = 9,
+                               detection_columns = 12;
 
   /// Columns of an estimate; the weights of the models follow. Speed, course and climb have their σ beside them.
   static constexpr std::size_t position_at = 0, error_at = 3, sigma_at = 6, moves_at = 9, nis_at = 15,
@@ -85,8 +86,8 @@ class TrackPage {
   void add_trust(const Track& track, std::vector<Panel>& panels) const;
   void add_history(const Track& track, std::size_t filter, LineChart& modes) const;
   PlanTrace traced(PlanTrace made, const Track& track, std::size_t from, std::size_t every = 1) const;
-  Plan plan(const std::string& name, const Track& track) const;
-  Plan map_of_all() const;
+  MapChart plan(const std::string& name, const Track& track) const;
+  MapChart map_of_all() const;
 
   const std::vector<FilterSettings>& filters_;
   const RecordingReader& recording_;

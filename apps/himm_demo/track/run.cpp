@@ -66,8 +66,9 @@ class TrackRun {
     for (auto& [name, target] : targets_) {
       const bool of_day = options_.predict_to_time_of_day && recording_.times_of_day();
       Row row{.line = target.rows.back().line, .track = name, .predicted = true};
-      row.plot.time = of_day ? time_of_day_after(target.tally.last_time, *options_.predict_to) : *options_.predict_to;
-      const double ahead = row.plot.time - target.tally.last_time;
+      row.detection.time =
+          of_day ? time_of_day_after(target.tally.last_time, *options_.predict_to) : *options_.predict_to;
+      const double ahead = row.detection.time - target.tally.last_time;
       if (ahead <= 0.0) continue;
       ++outcome_.predicted;
       const auto restarts = [=](const FilterSettings& filter) {
@@ -88,7 +89,7 @@ class TrackRun {
     Target& target = found->second;
     if (!options_.radar.sigma) places_.place(row);
     if (sinks_.rows) sinks_.rows(row, places_.frame() ? &*places_.frame() : nullptr);
-    if (!target.anchor()) begin(target, row.plot);
+    if (!target.anchor()) begin(target, row.detection);
     if (options_.radar.sigma) see_by_radar(row, where(row, target), axes_, options_.radar, target.random, file());
     if (sinks_.page || row.truth) measured(row, where(row, target), target);
     outcome_.judge_conversion(row, axes_, filters_);
@@ -97,8 +98,8 @@ class TrackRun {
 
   /// Lets the target begin at its first place on the Earth. Where errors or a radar are about one point, the frame of
   /// all stays there.
-  void begin(Target& target, const AnyPlot& plot) {
-    std::optional<Geodetic> here = recording_.geodetic() ? place_of(plot, axes_) : std::nullopt;
+  void begin(Target& target, const AnyDetection& detection) {
+    std::optional<Geodetic> here = recording_.geodetic() ? place_of(detection, axes_) : std::nullopt;
     if (places_.frame()) here = places_.frame()->origin();
     if (!here) return;
     if (!file_anchor_) file_anchor_ = recording_.origin().value_or(*here);
@@ -108,16 +109,17 @@ class TrackRun {
 
   /// Where a row's measurement was, about where positions are counted from.
   std::optional<Position> where(const Row& row, Target& target) const {
-    if (!recording_.geodetic() || row.plot.sensor != AnyPlot::Sensor::components) return position_of(row.plot, axes_);
-    if (!target.anchor() || axes_seen(row.plot, axes_) == 0) return std::nullopt;
-    target.last_place = place_of(row.plot, axes_).value_or(target.last_place);
-    target.last_place.altitude_m = axes_ == 3 ? component_of(row.plot, 2).value_or(0.0) : 0.0;
+    if (!recording_.geodetic() || row.detection.sensor != AnyDetection::Sensor::components)
+      return position_of(row.detection, axes_);
+    if (!target.anchor() || axes_seen(row.detection, axes_) == 0) return std::nullopt;
+    target.last_place = place_of(row.detection, axes_).value_or(target.last_place);
+    target.last_place.altitude_m = axes_ == 3 ? component_of(row.detection, 2).value_or(0.0) : 0.0;
     return target.anchor()->to_local(target.last_place);
   }
 
   /// What a row measured, perhaps by a simulated radar.
   void measured(const Row& row, const std::optional<Position>& position, const Target& target) {
-    if (row.truth && axes_seen(row.plot, axes_) == axes_)
+    if (row.truth && axes_seen(row.detection, axes_) == axes_)
       add_by_part(outcome_.raw, row.roll_deg, [&](Sums& sums) {
         for (std::size_t axis = 0; axis < 3; ++axis) sums.error[axis].add((*position)[axis] - (*row.truth)[axis]);
       });
@@ -127,10 +129,11 @@ class TrackRun {
 
   void step(Target& target, Row row) {
     TrackTally& tally = target.tally;
-    const bool again = row.plot.time == tally.last_time;  // of another sensor: nothing starts from two rows of one time
-    if (tally.rows == 0) tally.first_time = row.plot.time;
-    tally.last_time = row.plot.time;
-    row.plot.tag = tally.rows++;
+    const bool again =
+        row.detection.time == tally.last_time;  // of another sensor: nothing starts from two rows of one time
+    if (tally.rows == 0) tally.first_time = row.detection.time;
+    tally.last_time = row.detection.time;
+    row.detection.tag = tally.rows++;
     if (row.measured()) ++tally.measurements;
     target.rows.push_back(std::move(row));
     if (!keeps_all_ && target.rows.size() > 2) target.rows.pop_front();  // a start may wait for the row after it
@@ -146,7 +149,7 @@ class TrackRun {
       const std::size_t rejected = filter.rejected(), starts = filter.starts();
       if (again && !filter.running() && !(crosses_ && filters_[f].start != StartRule::given)) continue;
       const TargetPoint last = follow(target, f, row);
-      if (last.nis && last.tag == row.plot.tag && !last.is_start) nis = std::min(nis, *last.nis);
+      if (last.nis && last.tag == row.detection.tag && !last.is_start) nis = std::min(nis, *last.nis);
       if (filter.rejected() > rejected) {
         ++refusing;
         likely = std::max(likely, last.log_evidence.value_or(infinity));
@@ -173,9 +176,9 @@ class TrackRun {
     };
     try {
       if (row.predicted)
-        filter.predict(row.plot.time, row.plot.tag, visit);
+        filter.predict(row.detection.time, row.detection.tag, visit);
       else
-        filter.follow_in_frame(plot_for(filter, filters_[f], row), visit);
+        filter.follow_in_frame(detection_for(filter, filters_[f], row), visit);
     } catch (const std::logic_error& error) {
       refuse_failure(f, row, error);
     }
@@ -184,22 +187,23 @@ class TrackRun {
 
   /// What a row measures, in the frame of the filter and with the covariances that it believes. It starts from whole
   /// positions, or bearings, or as given.
-  AnyPlot plot_for(const EarthTarget& filter, const FilterSettings& settings, const Row& row) const {
-    AnyPlot plot = row.plot;
-    if (recording_.geodetic() && plot.sensor == AnyPlot::Sensor::components)
-      plot = filter.anchor() ? filter.in_frame(plot) : AnyPlot{.time = plot.time, .tag = plot.tag};
+  AnyDetection detection_for(const EarthTarget& filter, const FilterSettings& settings, const Row& row) const {
+    AnyDetection detection = row.detection;
+    if (recording_.geodetic() && detection.sensor == AnyDetection::Sensor::components)
+      detection =
+          filter.anchor() ? filter.in_frame(detection) : AnyDetection{.time = detection.time, .tag = detection.tag};
     const bool starts_anywhere = (settings.start == StartRule::given && !recording_.geodetic()) || crosses_;
-    if (!filter.running() && !starts_anywhere && axes_seen(plot, axes_) < axes_)
-      return {.time = plot.time, .tag = plot.tag};
-    return believed(settings, row.sensor, plot, axes_);
+    if (!filter.running() && !starts_anywhere && axes_seen(detection, axes_) < axes_)
+      return {.time = detection.time, .tag = detection.tag};
+    return with_sensor_noise(settings, row.sensor, detection, axes_);
   }
 
   /// How far a measurement is from where a filter expects it, in m; 0 where it tells no position.
   double distance(const Target& target, std::size_t f, const Row& row, const TargetPoint& expected) const {
     if (expected.mean.empty()) return 0.0;
     const EarthTarget& filter = target.filters[f];
-    const bool on_earth = recording_.geodetic() && row.plot.sensor == AnyPlot::Sensor::components;
-    const auto at = position_of(on_earth ? filter.in_frame(row.plot) : row.plot, axes_);
+    const bool on_earth = recording_.geodetic() && row.detection.sensor == AnyDetection::Sensor::components;
+    const auto at = position_of(on_earth ? filter.in_frame(row.detection) : row.detection, axes_);
     double squares = 0.0;
     for (std::size_t i = 0; at && i < static_cast<std::size_t>(axes_); ++i)
       squares += ((*at)[i] - expected.mean[i]) * ((*at)[i] - expected.mean[i]);
@@ -214,7 +218,7 @@ class TrackRun {
     const std::vector<double>& innovation = point.normalized_innovation;
     std::size_t size = innovation.size();
     if (innovation.empty() && point.nis)  // smoothed
-      size = static_cast<std::size_t>(believed(filter, row.sensor, row.plot, axes_).size);
+      size = static_cast<std::size_t>(with_sensor_noise(filter, row.sensor, row.detection, axes_).size);
     if (!row.predicted) {
       FilterOutcome& own = outcome_.filters[f];
       if (point.nis) {
@@ -261,7 +265,7 @@ class TrackRun {
     throw InputError(
         "{}:{}: filter '{}' at time {} s: {}; look for an outlier here, and at the start and the settings of the "
         "filter",
-        file(), row.line, filters_[f].name, shortest(row.plot.time), error.what());
+        file(), row.line, filters_[f].name, shortest(row.detection.time), error.what());
   }
 
   const TrackOptions& options_;

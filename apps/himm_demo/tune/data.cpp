@@ -33,16 +33,16 @@ void refuse_other_kind(const TuneOptions& options, const TuneData& data, const R
 /// Takes down a row's numbers; of a place in m along a meridian, and of a velocity along two axes or more also the
 /// speed, since that may be what was rounded. It is filed behind the velocity.
 void take_down(const Row& row, int axes, bool geodetic, Columns& columns) {
-  const AnyPlot& plot = row.plot;
+  const AnyDetection& detection = row.detection;
   auto& own = columns[row.sensor];
   double squares = 0.0;
-  for (std::size_t i = 0; i < static_cast<std::size_t>(plot.size); ++i) {
-    const auto key = quantity_of(plot, i);
-    const bool is_component = key.first == AnyPlot::Sensor::components;
-    own[key].push_back(plot.z[i] * (geodetic && is_component && key.second < 2 ? metres_a_degree : 1.0));
-    if (is_component && key.second >= axes && key.second < axes + 2) squares += plot.z[i] * plot.z[i];
+  for (std::size_t i = 0; i < static_cast<std::size_t>(detection.size); ++i) {
+    const auto key = quantity_of(detection, i);
+    const bool is_component = key.first == AnyDetection::Sensor::components;
+    own[key].push_back(detection.z[i] * (geodetic && is_component && key.second < 2 ? metres_a_degree : 1.0));
+    if (is_component && key.second >= axes && key.second < axes + 2) squares += detection.z[i] * detection.z[i];
   }
-  if (is_moving(plot, axes)) own[{plot.sensor, 2 * axes}].push_back(std::sqrt(squares));
+  if (is_moving(detection, axes)) own[{detection.sensor, 2 * axes}].push_back(std::sqrt(squares));
 }
 
 void read(const std::string& file, const TuneOptions& options, const FilterSettings& settings, TuneData& data,
@@ -78,24 +78,25 @@ void read(const std::string& file, const TuneOptions& options, const FilterSetti
     }
     if (!first && places.frame()) first = places.frame()->origin();
     checks.see(row, places.frame() ? &*places.frame() : nullptr);
-    const bool is_place = recording.geodetic() && row.plot.sensor == AnyPlot::Sensor::components;
+    const bool is_place = recording.geodetic() && row.detection.sensor == AnyDetection::Sensor::components;
     if (is_place) {
-      its.last = {component_of(row.plot, 0).value_or(its.last.latitude_deg),
-                  component_of(row.plot, 1).value_or(its.last.longitude_deg),
-                  data.axes == 3 ? component_of(row.plot, 2).value_or(its.last.altitude_m) : 0.0};
-      if (const auto start = place_of(row.plot, data.axes); start && !its.frame) {
+      its.last = {component_of(row.detection, 0).value_or(its.last.latitude_deg),
+                  component_of(row.detection, 1).value_or(its.last.longitude_deg),
+                  data.axes == 3 ? component_of(row.detection, 2).value_or(its.last.altitude_m) : 0.0};
+      if (const auto start = place_of(row.detection, data.axes); start && !its.frame) {
         if (!first) first = start;
         its.frame.emplace(one_frame ? *first : recording.origin().value_or(*start), data.axes);
       }
       if (its.frame && its.last.is_valid()) its.at = its.frame->to_local(its.last);
     }
     if (is_place)
-      row.plot = its.at ? in_frame(row.plot, *its.frame, *its.at, data.axes) : AnyPlot::missed(row.plot.time);
+      row.detection =
+          its.at ? in_frame(row.detection, *its.frame, *its.at, data.axes) : AnyDetection::missed(row.detection.time);
     if (options.radar.sigma)
-      see_by_radar(row, position_of(row.plot, data.axes), data.axes, options.radar, its.random, recording.file());
+      see_by_radar(row, position_of(row.detection, data.axes), data.axes, options.radar, its.random, recording.file());
     data.has_truth |= row.truth.has_value();
     auto& rows = data.tracks[its.place].rows;
-    row.plot.tag = rows.size();
+    row.detection.tag = rows.size();
     rows.push_back(std::move(row));
   }
   if (recording.skipped() > 0)
@@ -117,18 +118,19 @@ void summarize(TuneData& data, const Columns& columns) {
   data.too_short = all - data.tracks.size();
   Tracks tracks;
   for (const TuneTrack& track : data.tracks) {
-    tracks.push_back(each(track.rows, &Row::plot));
+    tracks.push_back(each(track.rows, &Row::detection));
     for (const Row& row : track.rows) {
       if (!row.measured()) continue;
-      const bool by_radar = row.plot.sensor == AnyPlot::Sensor::polar || row.plot.sensor == AnyPlot::Sensor::doppler;
-      const bool is_bearing = row.plot.sensor == AnyPlot::Sensor::bearing;
+      const bool by_radar =
+          row.detection.sensor == AnyDetection::Sensor::polar || row.detection.sensor == AnyDetection::Sensor::doppler;
+      const bool is_bearing = row.detection.sensor == AnyDetection::Sensor::bearing;
       bool unsaid = false;  // whether the filter must know how well
-      for (int i = 0; i < (is_bearing ? 1 : axes_seen(row.plot, data.axes)); ++i)
-        unsaid |= std::isnan(row.plot.variance(i));
+      for (int i = 0; i < (is_bearing ? 1 : axes_seen(row.detection, data.axes)); ++i)
+        unsaid |= std::isnan(row.detection.variance(i));
       ++data.measurements;
       TuneSensor& sensor = data.sensors[row.sensor];
-      sensor.velocity |= is_moving(row.plot, data.axes);
-      sensor.range_rate |= row.plot.sensor == AnyPlot::Sensor::doppler;
+      sensor.velocity |= is_moving(row.detection, data.axes);
+      sensor.range_rate |= row.detection.sensor == AnyDetection::Sensor::doppler;
       (is_bearing ? sensor.bearing : by_radar ? sensor.radar : sensor.position) |= unsaid;
     }
   }
@@ -138,9 +140,9 @@ void summarize(TuneData& data, const Columns& columns) {
     const auto own = columns.find(name);
     if (own == columns.end()) continue;
     for (const auto& [key, numbers] : own->second) {
-      const bool is_longitude = data.geodetic && key == MeasuredQuantity(AnyPlot::Sensor::components, 1);
+      const bool is_longitude = data.geodetic && key == MeasuredQuantity(AnyDetection::Sensor::components, 1);
       const double latitude =
-          is_longitude ? own->second.at({AnyPlot::Sensor::components, 0}).front() / metres_a_degree : 0.0;
+          is_longitude ? own->second.at({AnyDetection::Sensor::components, 0}).front() / metres_a_degree : 0.0;
       sensor.rounding[key] = rounding_of(numbers) * std::cos(latitude * degree);
       if (std::isinf(sensor.rounding[key]))
         data.notes.push_back(
@@ -191,7 +193,7 @@ TuneData read_tune_data(const TuneOptions& options, const FilterSettings& settin
   return data;
 }
 
-double TuneSensor::rounding_of(AnyPlot::Sensor kind, int from, int to) const {
+double TuneSensor::rounding_of(AnyDetection::Sensor kind, int from, int to) const {
   std::optional<double> greatest;
   for (const auto& [key, own] : rounding)
     if (key.first == kind && key.second >= from && key.second <= to)
@@ -217,10 +219,11 @@ RowLosses losses(const TuneData& data, const FilterSettings& settings, Objective
   RowLosses result;
   for (std::size_t t = 0; t < data.tracks.size(); ++t) {
     const auto& rows = data.tracks[t].rows;
-    auto plots = each(rows, [&](const Row& row) { return believed(settings, row.sensor, row.plot, data.axes); });
-    for (std::size_t k = withhold; k < plots.size(); k += 4) {
-      plots[k] = AnyPlot::missed(plots[k].time);
-      plots[k].tag = k;
+    auto detections =
+        each(rows, [&](const Row& row) { return with_sensor_noise(settings, row.sensor, row.detection, data.axes); });
+    for (std::size_t k = withhold; k < detections.size(); k += 4) {
+      detections[k] = AnyDetection::missed(detections[k].time);
+      detections[k].tag = k;
     }
     std::vector<double> lost(rows.size(), nan);
     bool started = false;
@@ -231,8 +234,8 @@ RowLosses losses(const TuneData& data, const FilterSettings& settings, Objective
         lost[now.tag] = truth_loss(now, *row.truth, data.axes, objective);
       if (look && !now.is_start) look(t, now);
     };
-    const auto scores = log_scores(choice, plots, visit, [&](const AnyPlot& plot) {
-      return starts_anywhere || axes_seen(rows[plot.tag].plot, data.axes) == data.axes;
+    const auto scores = log_scores(choice, detections, visit, [&](const AnyDetection& detection) {
+      return starts_anywhere || axes_seen(rows[detection.tag].detection, data.axes) == data.axes;
     });
     result.push_back(objective == Objective::prequential ? data.robust(t, scores) : std::move(lost));
   }

@@ -24,13 +24,13 @@ double rounded(double value) { return std::strtod(fmt::format("{:.4g}", value).c
 
 void add_sensor(const FilterSettings& settings, const std::string& name, const TuneData& data,
                 std::vector<Number>& numbers) {
-  using enum AnyPlot::Sensor;
+  using enum AnyDetection::Sensor;
   const TuneSensor& sensor = data.sensors.at(name);
-  const Accuracy& now = settings.accuracy_of(name);
+  const SensorSettings& now = settings.accuracy_of(name);
   // Of quantities of a kind, from one to another: no less than their rounding, no more than they change from row to
   // row.
-  const auto add = [&](std::string_view what, double start, AnyPlot::Sensor kind, int from, int to, double unit,
-                       const std::function<void(Accuracy&, double)>& set) {
+  const auto add = [&](std::string_view what, double start, AnyDetection::Sensor kind, int from, int to, double unit,
+                       const std::function<void(SensorSettings&, double)>& set) {
     const auto column = sensor.rounding.lower_bound({kind, from});
     if (kind == components && !sensor.rounding.empty() &&
         (column == sensor.rounding.end() || MeasuredQuantity(kind, to) < column->first))
@@ -57,7 +57,7 @@ void add_sensor(const FilterSettings& settings, const std::string& name, const T
     if (data.axes == 3) sigma.resize(3, sigma.back());
     const double start = sigma[sigma.size() == 1 ? 0 : static_cast<std::size_t>(from)];
     add(fmt::format("{}sigma_position_m", whose), start, components, from, to, 1.0,
-        [=](Accuracy& accuracy, double value) {
+        [=](SensorSettings& accuracy, double value) {
           if (accuracy.position_m.size() < sigma.size()) accuracy.position_m = sigma;
           for (std::size_t i = 0; i < sigma.size(); ++i)
             if (sigma.size() == 1 || (static_cast<int>(i) >= from && static_cast<int>(i) <= to))
@@ -70,10 +70,10 @@ void add_sensor(const FilterSettings& settings, const std::string& name, const T
   }
   if (sensor.velocity && now.velocity_mps)
     add("sigma_velocity_mps", *now.velocity_mps, components, data.axes, 2 * data.axes, 1.0,
-        [](Accuracy& accuracy, double value) { accuracy.velocity_mps = value; });
+        [](SensorSettings& accuracy, double value) { accuracy.velocity_mps = value; });
   if (sensor.range_rate && now.range_rate_mps)
     add("sigma_range_rate_mps", *now.range_rate_mps, polar, data.axes, data.axes, 1.0,
-        [](Accuracy& accuracy, double value) { accuracy.range_rate_mps = value; });
+        [](SensorSettings& accuracy, double value) { accuracy.range_rate_mps = value; });
   const std::array radar_names = {"sigma_range_m", "sigma_azimuth_deg", "sigma_elevation_deg"};
   for (const int i : {1, 0, 2}) {
     if (!(sensor.radar || (i == 1 && sensor.bearing)) || (i == 2 && data.axes < 3)) continue;
@@ -81,7 +81,7 @@ void add_sensor(const FilterSettings& settings, const std::string& name, const T
     const double unit = i == 0 ? 1.0 : degree;
     const bool alone = sensor.bearing && !sensor.radar;
     add(radar_names[place], now.radar[place] / unit, alone ? bearing : polar, alone ? 0 : i, alone ? 0 : i, unit,
-        [=](Accuracy& accuracy, double value) { accuracy.radar[place] = value * unit; });
+        [=](SensorSettings& accuracy, double value) { accuracy.radar[place] = value * unit; });
   }
 }
 
@@ -153,9 +153,9 @@ std::vector<Withheld> withheld(const TuneData& data, const FilterSettings& setti
   std::vector<std::vector<double>> off(count);
   for (std::size_t first = all_rows ? 0 : 3; first < 4; ++first) {
     const auto look = [&](std::size_t t, const TargetPoint& now) {
-      const AnyPlot& plot = data.row({t, now.tag}).plot;
-      const bool whole = now.tag % 4 == first && axes_seen(plot, data.axes) == data.axes;
-      const auto seen = whole ? position_of(plot, data.axes) : std::nullopt;
+      const AnyDetection& detection = data.row({t, now.tag}).detection;
+      const bool whole = now.tag % 4 == first && axes_seen(detection, data.axes) == data.axes;
+      const auto seen = whole ? position_of(detection, data.axes) : std::nullopt;
       double squares = 0.0;
       for (std::size_t i = 0; seen && i < static_cast<std::size_t>(data.axes); ++i)
         squares += std::pow((*seen)[i] - now.mean[i], 2);
@@ -197,13 +197,15 @@ Candidate fitted(const std::string& name, FilterSettings base, const TuneData& d
   Candidate best;
   const bool prequential = options.objective == Objective::prequential;
   const RowFolds folds = data.folds(options.folds);
-  std::vector<Lift> lifts = {base.lift};
-  for (const Lift lift : {Lift::zero, Lift::borrowed_variance, Lift::unbiased})
-    if (options.fits("lift") && lift != base.lift && base.motions.size() > 1) lifts.push_back(lift);
+  std::vector<StateAugmentation> augmentations = {base.augmentation};
+  for (const StateAugmentation augmentation :
+       {StateAugmentation::zero, StateAugmentation::borrowed_variance, StateAugmentation::unbiased})
+    if (options.fits("augmentation") && augmentation != base.augmentation && base.motions.size() > 1)
+      augmentations.push_back(augmentation);
   double least = infinity;
-  for (const Lift lift : lifts) {
+  for (const StateAugmentation augmentation : augmentations) {
     const auto numbers = free_numbers(base, data, options);
-    base.lift = lift;
+    base.augmentation = augmentation;
     const auto objective = [&](const RowLosses& all, const RowCounts& counts) {
       return objective_of(data, all, options.objective, counts);
     };
@@ -212,7 +214,7 @@ Candidate fitted(const std::string& name, FilterSettings base, const TuneData& d
       const FilterSettings tried = with(base, numbers, values);
       return before ? searched(data, tried, options, folds, *before) : judged(data, tried, options.objective);
     };
-    const bool again = least < infinity;  // by another lift, from where the first one led
+    const bool again = least < infinity;  // by another augmentation, from where the first one led
     if (again &&
         !(objective(lost(each(numbers, [](const Number& number) { return number.parameter.start; })), {}) < least))
       continue;

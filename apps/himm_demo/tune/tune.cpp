@@ -22,9 +22,9 @@ void add_tune(CLI::App& program, const std::string& command) {
              "Sets of models to choose from, as dwna,dwna+dwpa [the filter's, and each of them alone]")
       .list_alone()
       .type("SET,…");
-  app.option("--keep", options->fixed, "What is left as it is: models, sensors, transition, lift")
+  app.option("--keep", options->fixed, "What is left as it is: models, sensors, transition, augmentation")
       .list_alone()
-      .one_of({"models", "sensors", "transition", "lift"})
+      .one_of({"models", "sensors", "transition", "augmentation"})
       .type("WHAT,…");
   app.option("--folds", options->folds, "Parts of the rows, or of the tracks, each held out once").in(2, 20);
   app.option("--starts", options->starts, "Local searches, from the best points of the global one").in(1, 100);

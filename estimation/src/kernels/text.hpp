@@ -352,7 +352,7 @@ Outcome update_by(const double* numbers_of_H, int seen, const ConstView& prior, 
   return Outcome::done;
 }
 
-/// The same, of sizes that the compiler knows where they are those of a plot: of a position along the axes or in a
+/// The same, of sizes that the compiler knows where they are those of a detection: of a position along the axes or in a
 /// radar's space, of a bearing, or with a range rate.
 template <int M, int K, int Rest>
 Outcome update_as(const double* H, int seen, const ConstView& prior, const ConstView& z, const View& posterior,

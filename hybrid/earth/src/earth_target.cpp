@@ -40,40 +40,40 @@ const Geodetic& checked(const Geodetic& place) {
   return place;
 }
 
-bool is_sighting(const AnyPlot& plot) {
-  using enum AnyPlot::Sensor;
-  return plot.sensor == polar || plot.sensor == doppler || plot.sensor == bearing;
+bool is_sighting(const AnyDetection& detection) {
+  using enum AnyDetection::Sensor;
+  return detection.sensor == polar || detection.sensor == doppler || detection.sensor == bearing;
 }
 
 }  // namespace
 
-std::optional<Geodetic> place_of(const AnyPlot& plot, int axes, double altitude_m) {
-  const auto latitude = component_of(plot, 0), longitude = component_of(plot, 1);
+std::optional<Geodetic> place_of(const AnyDetection& detection, int axes, double altitude_m) {
+  const auto latitude = component_of(detection, 0), longitude = component_of(detection, 1);
   if (!latitude || !longitude) return std::nullopt;
-  return Geodetic{*latitude, *longitude, axes == 3 ? component_of(plot, 2).value_or(altitude_m) : 0.0};
+  return Geodetic{*latitude, *longitude, axes == 3 ? component_of(detection, 2).value_or(altitude_m) : 0.0};
 }
 
-AnyPlot in_frame(AnyPlot plot, const LocalFrame& frame, const Position& at, int axes) {
+AnyDetection in_frame(AnyDetection detection, const LocalFrame& frame, const Position& at, int axes) {
   Vector<3> v = Vector<3>::Zero();
-  for (int i = 0; i < axes; ++i) v[i] = component_of(plot, axes + i).value_or(0.0);
-  if (is_moving(plot, axes)) v = (local_axes(frame, at, 3).transpose() * v).eval();
-  for (std::size_t i = 0; i < static_cast<std::size_t>(plot.size); ++i) {
-    const int place = plot.sensor == AnyPlot::Sensor::position ? static_cast<int>(i) : plot.places[i];
-    plot.z[i] = place < axes ? at[static_cast<std::size_t>(place)] : v[place - axes];
+  for (int i = 0; i < axes; ++i) v[i] = component_of(detection, axes + i).value_or(0.0);
+  if (is_moving(detection, axes)) v = (local_axes(frame, at, 3).transpose() * v).eval();
+  for (std::size_t i = 0; i < static_cast<std::size_t>(detection.size); ++i) {
+    const int place = detection.sensor == AnyDetection::Sensor::position ? static_cast<int>(i) : detection.places[i];
+    detection.z[i] = place < axes ? at[static_cast<std::size_t>(place)] : v[place - axes];
   }
-  return plot;
+  return detection;
 }
 
-AnyPlot seen_from(const Geodetic& sensor, AnyPlot plot, const LocalFrame& frame, int axes) {
-  plot.origin = frame.to_local(sensor);
-  const bool is_bearing = plot.sensor == AnyPlot::Sensor::bearing;
-  const bool has_elevation = !is_bearing && axes == 3 && plot.size > 2;
-  double& azimuth = plot.z[is_bearing ? 0 : 1];
-  const Vector<3> seen = to_cartesian({1.0, radians(azimuth), radians(has_elevation ? plot.z[2] : 0.0)});
-  const Polar turned = to_polar(local_axes(frame, plot.origin, 3).transpose() * seen);
+AnyDetection seen_from(const Geodetic& sensor, AnyDetection detection, const LocalFrame& frame, int axes) {
+  detection.origin = frame.to_local(sensor);
+  const bool is_bearing = detection.sensor == AnyDetection::Sensor::bearing;
+  const bool has_elevation = !is_bearing && axes == 3 && detection.size > 2;
+  double& azimuth = detection.z[is_bearing ? 0 : 1];
+  const Vector<3> seen = to_cartesian({1.0, radians(azimuth), radians(has_elevation ? detection.z[2] : 0.0)});
+  const Polar turned = to_polar(local_axes(frame, detection.origin, 3).transpose() * seen);
   azimuth = turned.azimuth.radians();
-  if (has_elevation) plot.z[2] = turned.elevation.radians();
-  return plot;
+  if (has_elevation) detection.z[2] = turned.elevation.radians();
+  return detection;
 }
 
 EarthTarget::EarthTarget(const TargetChoice& choice)
@@ -91,50 +91,51 @@ void EarthTarget::begin(const Geodetic& origin, const Geodetic& here, bool moves
   segments_ = {{0, 0, stays ? *anchor_ : LocalFrame(here, axes_)}};
 }
 
-void EarthTarget::follow(std::span<const AnyPlot> plots, const std::function<void(const EarthPoint&)>& visit) {
-  for (const AnyPlot& plot : plots) {
-    const auto& [latitude, longitude, altitude] = plot.origin;
-    const auto here = is_sighting(plot) ? Geodetic{latitude, longitude, altitude} : place_of(plot, axes_);
+void EarthTarget::follow(std::span<const AnyDetection> detections,
+                         const std::function<void(const EarthPoint&)>& visit) {
+  for (const AnyDetection& detection : detections) {
+    const auto& [latitude, longitude, altitude] = detection.origin;
+    const auto here = is_sighting(detection) ? Geodetic{latitude, longitude, altitude} : place_of(detection, axes_);
     if (!anchor_ && here) begin(*here, *here);
-    if (anchor_) follow_in_frame(in_frame(plot), [&](const TargetPoint& point) { visit(on_earth(point)); });
+    if (anchor_) follow_in_frame(in_frame(detection), [&](const TargetPoint& point) { visit(on_earth(point)); });
   }
 }
 
-AnyPlot EarthTarget::in_frame(const AnyPlot& plot) const {
+AnyDetection EarthTarget::in_frame(const AnyDetection& detection) const {
   const LocalFrame& frame = segments_.back().frame;
-  if (plot.sensor == AnyPlot::Sensor::none) return plot;
-  if (is_sighting(plot))
-    return seen_from(checked({plot.origin[0], plot.origin[1], plot.origin[2]}), plot, frame, axes_);
-  const int seen = axes_seen(plot, axes_);
+  if (detection.sensor == AnyDetection::Sensor::none) return detection;
+  if (is_sighting(detection))
+    return seen_from(checked({detection.origin[0], detection.origin[1], detection.origin[2]}), detection, frame, axes_);
+  const int seen = axes_seen(detection, axes_);
   Position at{};
   if (seen < axes_) {
-    if (!running()) return {.time = plot.time, .tag = plot.tag};
+    if (!running()) return {.time = detection.time, .tag = detection.tag};
     const TargetPoint last = output();
     const auto n = static_cast<std::size_t>(axes_);
     for (std::size_t i = 0; i < n; ++i)
-      at[i] = last.mean[i] + (i + n < last.mean.size() ? (plot.time - last.time) * last.mean[i + n] : 0.0);
+      at[i] = last.mean[i] + (i + n < last.mean.size() ? (detection.time - last.time) * last.mean[i + n] : 0.0);
   }
   if (seen > 0) {
     const Geodetic expected = seen < axes_ ? frame.to_geodetic(at) : Geodetic{};
-    at = frame.to_local(checked({component_of(plot, 0).value_or(expected.latitude_deg),
-                                 component_of(plot, 1).value_or(expected.longitude_deg),
-                                 axes_ == 3 ? component_of(plot, 2).value_or(expected.altitude_m) : 0.0}));
+    at = frame.to_local(checked({component_of(detection, 0).value_or(expected.latitude_deg),
+                                 component_of(detection, 1).value_or(expected.longitude_deg),
+                                 axes_ == 3 ? component_of(detection, 2).value_or(expected.altitude_m) : 0.0}));
   }
-  return sigmax::in_frame(plot, frame, at, axes_);
+  return sigmax::in_frame(detection, frame, at, axes_);
 }
 
-void EarthTarget::follow_in_frame(const AnyPlot& plot, const std::function<void(const TargetPoint&)>& visit) {
+void EarthTarget::follow_in_frame(const AnyDetection& detection, const std::function<void(const TargetPoint&)>& visit) {
   std::optional<Position> last;
-  AnyTarget::follow({&plot, 1}, [&](const TargetPoint& point) {
+  AnyTarget::follow({&detection, 1}, [&](const TargetPoint& point) {
     last = position_of(point, axes_);
     visit(point);
   });
-  if (moves_ && last && running()) move(*last, plot.tag, false);
+  if (moves_ && last && running()) move(*last, detection.tag, false);
 }
 
 void EarthTarget::predict(double time, std::size_t tag, const std::function<void(const TargetPoint&)>& visit) {
   if (moves_ && running()) move(position_of(output(), axes_), tag, true);
-  const AnyPlot nothing{.time = time, .tag = tag};
+  const AnyDetection nothing{.time = time, .tag = tag};
   AnyTarget::follow({&nothing, 1}, visit);
 }
 
@@ -147,7 +148,8 @@ void EarthTarget::add(const Segment& segment) {
   if (!keeps_all_) segments_.erase(segments_.begin());
 }
 
-/// Moves the frame there if that is far away, from the plot behind `tag` on, or before that plot is predicted.
+/// Moves the frame there if that is far away, from the detection behind `tag` on, or before that detection is
+/// predicted.
 void EarthTarget::move(const Position& to, std::size_t tag, bool is_before) {
   if (segments_.back().starts == 0) segments_.back().starts = starts();
   const LocalFrame frame = segments_.back().frame;

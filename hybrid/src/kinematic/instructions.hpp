@@ -51,9 +51,9 @@ bool step_one(const Plan& plan, const Track& now, const double* z, const double*
   return true;
 }
 
-/// Step 4: the output in the components of a model of the greatest order, (64)–(68), lifted by the rule in force. What
-/// a lift borrows: each derivative that a model lacks, of the most likely model that has it, with the covariances
-/// within that model.
+/// Step 4: the output in the components of a model of the greatest order, (64)–(68), augmented by the rule in force.
+/// What an augmentation borrows: each derivative that a model lacks, of the most likely model that has it, with the
+/// covariances within that model.
 template <int A, bool selects>
 void output_one(const Plan& plan, const Track& track, double* mean, double* covariance) {
   int greatest = 0;

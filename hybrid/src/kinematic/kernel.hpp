@@ -105,7 +105,8 @@ struct Mixture {
   const NumberOf<V>* const* covariance;
   const NumberOf<V>* lender_mean;  ///< of an estimate of all components; a part has so many times what it lacks
   const NumberOf<V>* lender_covariance;
-  NumberOf<V> lent = plan.lift == Lift::unbiased ? 1 : 0, lent_variance = plan.lift == Lift::zero ? 0 : 1;
+  NumberOf<V> lent = plan.augmentation == StateAugmentation::unbiased ? 1 : 0,
+              lent_variance = plan.augmentation == StateAugmentation::zero ? 0 : 1;
 
   V x[N];
   int first = 0, last = plan.modes;

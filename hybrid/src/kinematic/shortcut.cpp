@@ -72,7 +72,7 @@ std::size_t lane_bytes() { return chosen()->lane_bytes; }
 template <ScalableUncertainty Kind>
 Shortcut::Shortcut(const std::vector<AnyModel>& models, const Interaction<Kind>& interaction)
     : selects_(SelectiveAlgebra<AlgebraOf<Kind>>) {
-  plan_.lift = interaction.lift;
+  plan_.augmentation = interaction.augmentation;
   plan_.output_tie = interaction.output_tie;
   plan_.likelihood = interaction.likelihood;
   steps_ = interaction.mixed_start == MixedStart::of_each_mode;
@@ -83,7 +83,7 @@ Shortcut::Shortcut(const std::vector<AnyModel>& models, const Interaction<Kind>&
   } else {
     steps_ = steps_ && interaction.collapse.mixing_weights == MixingWeights::correct;
   }
-  outputs_ = models.size() <= static_cast<std::size_t>(max_modes) && plan_.lift != Lift::prior &&
+  outputs_ = models.size() <= static_cast<std::size_t>(max_modes) && plan_.augmentation != StateAugmentation::prior &&
              plan_.mixed_covariance != MixedCovariance::envelope;
   for (std::size_t j = 0; outputs_ && j < models.size(); ++j) {
     const ModelRef& ref = models[j].ref();

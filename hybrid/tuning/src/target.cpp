@@ -20,11 +20,11 @@ double quantile(std::vector<double>& numbers, double share) {
 
 }  // namespace
 
-MeasuredQuantity quantity_of(const AnyPlot& plot, std::size_t i) {
-  using enum AnyPlot::Sensor;
-  if (plot.sensor == position) return {components, static_cast<int>(i)};
-  if (plot.sensor == doppler) return {polar, static_cast<int>(i)};
-  return {plot.sensor, plot.sensor == components ? plot.places[i] : static_cast<int>(i)};
+MeasuredQuantity quantity_of(const AnyDetection& detection, std::size_t i) {
+  using enum AnyDetection::Sensor;
+  if (detection.sensor == position) return {components, static_cast<int>(i)};
+  if (detection.sensor == doppler) return {polar, static_cast<int>(i)};
+  return {detection.sensor, detection.sensor == components ? detection.places[i] : static_cast<int>(i)};
 }
 
 double rounding_of(std::vector<double> numbers) {
@@ -54,17 +54,17 @@ TrackScale::TrackScale(const Tracks& tracks) {
   std::map<MeasuredQuantity, std::vector<double>> changes;
   for (const auto& track : tracks) {
     std::map<MeasuredQuantity, double> last;
-    const AnyPlot* before = nullptr;
-    for (const AnyPlot& plot : track) {
-      if (plot.sensor == AnyPlot::Sensor::none) continue;
-      if (before && plot.time > before->time) steps.push_back(plot.time - before->time);
-      before = &plot;
-      for (std::size_t i = 0; i < static_cast<std::size_t>(plot.size); ++i) {
-        const auto key = quantity_of(plot, i);
-        if (key == MeasuredQuantity(AnyPlot::Sensor::polar, 0)) ranges.push_back(plot.z[0]);
-        const auto [own, is_first] = last.try_emplace(key, plot.z[i]);
-        if (const double change = std::abs(plot.z[i] - own->second); change > 0.0) changes[key].push_back(change);
-        own->second = plot.z[i];
+    const AnyDetection* before = nullptr;
+    for (const AnyDetection& detection : track) {
+      if (detection.sensor == AnyDetection::Sensor::none) continue;
+      if (before && detection.time > before->time) steps.push_back(detection.time - before->time);
+      before = &detection;
+      for (std::size_t i = 0; i < static_cast<std::size_t>(detection.size); ++i) {
+        const auto key = quantity_of(detection, i);
+        if (key == MeasuredQuantity(AnyDetection::Sensor::polar, 0)) ranges.push_back(detection.z[0]);
+        const auto [own, is_first] = last.try_emplace(key, detection.z[i]);
+        if (const double change = std::abs(detection.z[i] - own->second); change > 0.0) changes[key].push_back(change);
+        own->second = detection.z[i];
       }
     }
   }
@@ -82,16 +82,16 @@ double TrackScale::change(const MeasuredQuantity& quantity) const {
 }
 
 double TrackScale::change_m() const {
-  using enum AnyPlot::Sensor;
+  using enum AnyDetection::Sensor;
   double most = std::max(change({polar, 0}), range_ * change({polar, 1}));
   for (int axis = 0; axis < 3; ++axis) most = std::max(most, change({components, axis}));
   return most > 0.0 ? most : 1000.0;
 }
 
-double TrackScale::log_stray(const AnyPlot& plot) const {
+double TrackScale::log_stray(const AnyDetection& detection) const {
   double sum = 0.0;
-  for (std::size_t i = 0; i < static_cast<std::size_t>(plot.size); ++i)
-    if (const double own = change(quantity_of(plot, i)); own > 0.0)  // else no row is off
+  for (std::size_t i = 0; i < static_cast<std::size_t>(detection.size); ++i)
+    if (const double own = change(quantity_of(detection, i)); own > 0.0)  // else no row is off
       sum -= std::log(widths * own);
   return sum;
 }
@@ -162,7 +162,7 @@ std::vector<FreeNumber<TargetChoice>> transition_numbers(const TargetChoice& cho
 RobustLoss::RobustLoss(const Tracks& tracks, const TrackScale& scale) {
   for (const auto& track : tracks) {
     auto& own = log_strays_.emplace_back();
-    for (const AnyPlot& plot : track) own.push_back(scale.log_stray(plot));
+    for (const AnyDetection& detection : track) own.push_back(scale.log_stray(detection));
   }
 }
 

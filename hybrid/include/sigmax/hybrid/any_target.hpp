@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include <sigmax/hybrid/any_plot.hpp>
+#include <sigmax/hybrid/any_detection.hpp>
 #include <sigmax/hybrid/interaction.hpp>
 #include <sigmax/hybrid/motion_choice.hpp>
 #include <sigmax/hybrid/target_rules.hpp>
@@ -43,8 +43,8 @@ struct TargetChoice {
   std::vector<double> sojourn_s;                ///< of each mode on average; if given, the transition follows the time
   MixedCovariance mixed_covariance = MixedCovariance::own_recentred;
   MixingWeights imm_mixing = MixingWeights::correct;
-  Lift lift = Lift::borrowed_variance;
-  EntryPrior entry = {};  ///< of Lift::prior
+  StateAugmentation augmentation = StateAugmentation::borrowed_variance;
+  EntryPrior entry = {};  ///< of StateAugmentation::prior
   Tie mixing_tie = Tie::stay;
   Tie output_tie = Tie::stay;
   LikelihoodForm likelihood = LikelihoodForm::density;
@@ -57,14 +57,14 @@ struct TargetChoice {
   std::vector<double> start_mean;                 ///< x, y, z, vx, …, az, whatever the axes
   std::vector<double> start_covariance_diagonal;  ///< in the same order
   double start_sigma_turn_deg_s = 3.0;            ///< of a rate that is estimated; it starts from 0
-  std::optional<double> start_time_s;             ///< of a given start; else one step before the first plot
+  std::optional<double> start_time_s;             ///< of a given start; else one step before the first detection
   TargetRules rules{.gate_probability = 1.0, .rejections = 0};
 };
 
 /// What is known of a target at one time, in plain numbers.
 struct TargetPoint {
   double time = 0.0;
-  std::size_t tag = 0;  ///< of the plot
+  std::size_t tag = 0;  ///< of the detection
   bool is_start = false;
   std::vector<double> mean;        ///< in the order of `AnyTarget::components`
   std::vector<double> covariance;  ///< row by row
@@ -90,10 +90,10 @@ struct ModeStay {
 ///     TargetChoice choice{.fuzzy = true, .motions = {{"dwna"}, {"dwpa"}}, .models = {"dwna", "dwpa"},
 ///                         .transition = {{1.0, 0.5}, {0.5, 1.0}}};
 ///     AnyTarget target{choice};
-///     target.take(AnyPlot::position(0.2, std::array{5010.3, -203.7, 99.1}, std::array{100.0, 100.0, 400.0}));
+///     target.take(AnyDetection::position(0.2, std::array{5010.3, -203.7, 99.1}, std::array{100.0, 100.0, 400.0}));
 class AnyTarget {
  public:
-  /// Called after each step or start with the tag of its plot.
+  /// Called after each step or start with the tag of its detection.
   using Stepped = std::function<void(std::size_t tag, bool is_start)>;
 
   /// Throws std::invalid_argument, saying what, if the choice makes no sense.
@@ -103,8 +103,8 @@ class AnyTarget {
   AnyTarget& operator=(AnyTarget other) noexcept;
   ~AnyTarget();
 
-  /// As Target::take. Throws also std::invalid_argument for a plot whose numbers do not fit its sensor.
-  Verdict take(const AnyPlot& plot, const Stepped& stepped = {});
+  /// As Target::take. Throws also std::invalid_argument for a detection whose numbers do not fit its sensor.
+  Verdict take(const AnyDetection& detection, const Stepped& stepped = {});
 
   /// @{
   /// As of Target.
@@ -116,9 +116,9 @@ class AnyTarget {
   bool transform(std::span<const double> A, std::span<const double> b);  ///< A row by row
   /// @}
 
-  /// Takes plots one after another, and calls visit(point) after each step and start with what is known then, with the
-  /// tag of its plot.
-  void follow(std::span<const AnyPlot> plots, const std::function<void(const TargetPoint&)>& visit);
+  /// Takes detections one after another, and calls visit(point) after each step and start with what is known then, with
+  /// the tag of its detection.
+  void follow(std::span<const AnyDetection> detections, const std::function<void(const TargetPoint&)>& visit);
 
   /// The names of what is estimated: the position and its derivatives, x, y, vx, …, and then others.
   const std::vector<std::string>& components() const;

@@ -6,7 +6,7 @@
 
 #include <sigmax/estimation/any_model.hpp>
 #include <sigmax/hybrid/estimates.hpp>
-#include <sigmax/hybrid/lift.hpp>
+#include <sigmax/hybrid/state_augmentation.hpp>
 
 namespace sigmax::detail {
 
@@ -25,8 +25,8 @@ class Components {
   /// Where all components stand in each model.
   const Correspondence* of_all() const { return output_.data(); }
 
-  /// Each component, with its covariances, from one of the models that have it: what a lift of the output borrows.
-  /// `carriers[i]` is the model that lends component i.
+  /// Each component, with its covariances, from one of the models that have it: what an augmentation of the output
+  /// borrows. `carriers[i]` is the model that lends component i.
   void carry(const Estimates& estimates, const std::size_t* carriers, View result) const;
 
   /// What each model takes of one start, given in the order of `names()`. Throws std::invalid_argument for another
@@ -53,7 +53,7 @@ Estimates pairs_of(const Estimates& estimates);
 /// size.
 Estimates shares_of(const std::vector<AnyModel>& models, ConstView start);
 
-/// What Lift::prior knows of every component of each model, with this scale.
+/// What StateAugmentation::prior knows of every component of each model, with this scale.
 void write_entries(const std::vector<AnyModel>& models, const EntryPrior& prior, double scale, Estimates& entries);
 
 }  // namespace sigmax::detail

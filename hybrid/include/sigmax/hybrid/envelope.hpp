@@ -15,8 +15,9 @@ namespace sigmax {
 /// overlap, and parts that are equal, come out exactly; between them β is right to about 1 % of itself in one or two
 /// components, 2 % in nine.
 ///
-/// A part may have no variance in some components, as Lift::zero gives, or in all. It then does not overlap parts that
-/// vary in others, and its weight counts in full. The covariance of the components that vary is positive definite.
+/// A part may have no variance in some components, as StateAugmentation::zero gives, or in all. It then does not
+/// overlap parts that vary in others, and its weight counts in full. The covariance of the components that vary is
+/// positive definite.
 class Envelope {
  public:
   /// No parts; those to come have `n` ≤ 32 components. Throws std::invalid_argument above.

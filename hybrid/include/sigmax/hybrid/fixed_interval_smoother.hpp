@@ -55,7 +55,7 @@ class FixedIntervalSmoother {
   JumpMarkovSystem<Kind> system_;
   Interaction<Kind> interaction_;
   detail::Components components_;
-  Estimates entries_;  ///< what Lift::prior lends
+  Estimates entries_;  ///< what StateAugmentation::prior lends
   State state_;
   Estimates pairs_;                                 ///< of mode i: one for each j, at i · modes + j
   std::vector<FutureEvidence> evidence_;            ///< of each j, about the mean of its filtered estimate

@@ -30,7 +30,8 @@ class HistoriesOfModes : public MultipleModelFilter<Kind> {
   using Filter::modes;
 
   HistoriesOfModes(const std::vector<AnyModel>& models, ModeTransition<Kind> transition, const Estimates& start,
-                   const HistoryRules<Kind>& rules = {}, const Interaction<Kind>& interaction = {Lift::prior});
+                   const HistoryRules<Kind>& rules = {},
+                   const Interaction<Kind>& interaction = {StateAugmentation::prior});
 
   const HistoryRules<Kind>& rules() const { return rules_; }
 
@@ -104,8 +105,8 @@ extern template class HistoriesOfModes<Fuzzy>;
 /// Where the variable is the whole history h of the mode, nothing needs to be collapsed: what is known of the state is
 /// exactly p⁺(x) ∝ ⊕_h π(h|Z) ⊗ N(x; x^h, P^h), with one Kalman filter for each history. A step branches each of them
 /// into every mode, keeps the greatest, and updates these. A model that begins with a component that the mode before
-/// lacked starts it by the lift; with Lift::prior, the default here, each scale of the prior is a branch of its own.
-/// Only dropping histories approximates. `step` allocates nothing.
+/// lacked starts it by the augmentation; with StateAugmentation::prior, the default here, each scale of the prior is a
+/// branch of its own. Only dropping histories approximates. `step` allocates nothing.
 ///
 /// `belief()` is the ⊕ over the histories of each mode, `estimates()` their collapse by the mode's kind, as of the
 /// other filters; docs/histories.md derives it. Made of models, transition, start, and optionally HistoryRules<Kind>

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <sigmax/hybrid/collapse.hpp>
-#include <sigmax/hybrid/lift.hpp>
+#include <sigmax/hybrid/state_augmentation.hpp>
 
 namespace sigmax {
 
@@ -20,12 +20,12 @@ enum class LikelihoodForm {
 /// The choices that the paper leaves open; the defaults are argued in docs/readings.md.
 template <ScalableUncertainty Kind>
 struct Interaction {
-  Lift lift = Lift::borrowed_variance;
+  StateAugmentation augmentation = StateAugmentation::borrowed_variance;
   Collapse<Kind> collapse = {};
   Tie output_tie = Tie::stay;
   MixedStart mixed_start = MixedStart::of_each_mode;
   LikelihoodForm likelihood = LikelihoodForm::density;
-  EntryPrior entry = {};  ///< of Lift::prior
+  EntryPrior entry = {};  ///< of StateAugmentation::prior
 };
 
 }  // namespace sigmax

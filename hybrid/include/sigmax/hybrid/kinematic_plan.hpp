@@ -35,7 +35,7 @@ struct Plan {
   std::array<int, max_modes> order{};                      ///< of each model
   std::array<Law, max_modes> law{};                        ///< for the time step in hand
   std::array<double, max_modes * max_modes> transition{};  ///< to j from i, at i · modes + j
-  Lift lift{};
+  StateAugmentation augmentation{};
   MixedCovariance mixed_covariance{};
   Tie mixing_tie{};
   Tie output_tie{};

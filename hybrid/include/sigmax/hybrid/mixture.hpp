@@ -6,25 +6,26 @@
 
 #include <sigmax/estimation/refs.hpp>
 #include <sigmax/hybrid/collapse.hpp>
-#include <sigmax/hybrid/lift.hpp>
+#include <sigmax/hybrid/state_augmentation.hpp>
 
 namespace sigmax::detail {
 
-/// Gaussians that are to become one, each read in the components of a receiver: dropped, lifted, or as it is. A view.
+/// Gaussians that are to become one, each read in the components of a receiver: dropped, augmented, or as it is. A
+/// view.
 struct Mixture {
   struct Part {
     ConstView estimate;
     const Correspondence* map = nullptr;  ///< of the receiver's components in the part; null if they are the same
   };
-  ConstView receiver;  ///< lends what a part lacks, by the rule of lifting
+  ConstView receiver;  ///< lends what a part lacks, by the rule of augmenting
   std::span<const Part> parts;
-  Lift lift = Lift::zero;
+  StateAugmentation augmentation = StateAugmentation::zero;
 
   int size() const { return receiver.n; }
   /// The mean of a part, and covariance += weight · that of a part, on and below the diagonal.
   void mean_of(const Part& part, double* mean) const;
   void add_covariance(const Part& part, double weight, double* covariance) const;
-  /// One part, lifted.
+  /// One part, augmented.
   void read(const Part& part, View result) const;
 };
 

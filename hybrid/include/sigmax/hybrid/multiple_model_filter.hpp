@@ -79,7 +79,7 @@ class MultipleModelFilter {
 
   /// Tells the state in other coordinates, p → A p + b of the position along the axes, A p of its derivatives; further
   /// components stay. A by columns. For models whose components are ordered by derivative. Goes on as if it had been
-  /// told so from the start, but for Lift::borrowed_variance, which borrows along the axes.
+  /// told so from the start, but for StateAugmentation::borrowed_variance, which borrows along the axes.
   virtual void transform(const double* A, const double* b, int axes);
 
   /// One cycle, with a measurement or without; see BankFilter.
@@ -97,7 +97,7 @@ class MultipleModelFilter {
 
   /// Step 4: the selected model's estimate if the mode is fuzzy, (65), (66); the moment-matched one if it is random,
   /// (67), (68) with the spread of the means that the print omits, if nothing else was chosen. In `components()`,
-  /// lifted by the rule in force. Of a state: the filter's own, or another, say a smoothed one.
+  /// augmented by the rule in force. Of a state: the filter's own, or another, say a smoothed one.
   virtual void output(const State& state, detail::View result) const;
   void output(detail::View result) const { output(state(), result); }
 
@@ -144,9 +144,10 @@ class MultipleModelFilter {
   bool shortens(double dt);
   const detail::kinematic::Shortcut& shortcut() const { return shortcut_; }
   const detail::Correspondence* correspondences(std::size_t j) const { return components_.of_model(j); }
-  /// The estimates that a lift borrows from: those of the receiving models, or what Lift::prior knows before.
+  /// The estimates that an augmentation borrows from: those of the receiving models, or what StateAugmentation::prior
+  /// knows before.
   const Estimates& lenders(const Estimates& estimates) const {
-    return interaction_.lift == Lift::prior ? entries_ : estimates;
+    return interaction_.augmentation == StateAugmentation::prior ? entries_ : estimates;
   }
   /// @}
 
@@ -185,7 +186,7 @@ class MultipleModelFilter {
   void update_model(std::size_t j, detail::ConstView prior, const Seen& seen, detail::View posterior,
                     AnyInnovation& innovation) const;
 
-  /// What stands of estimates of the models, lifted, for the components of the receiver: written to `parts`.
+  /// What stands of estimates of the models, augmented, for the components of the receiver: written to `parts`.
   detail::Mixture mixture(detail::ConstView receiver, const detail::Correspondence* maps, const Estimates& estimates,
                           detail::Mixture::Part* parts) const;
 
@@ -202,7 +203,7 @@ class MultipleModelFilter {
   };
   virtual Predictors predictors() const { return {innovations_, prior_.logs(), predicted_mode_}; }
 
-  /// What a lift of the output borrows: for each component from the most likely model that has it.
+  /// What an augmentation of the output borrows: for each component from the most likely model that has it.
   void output_receiver(const State& state, detail::View result) const;
 
   /// The next state becomes the state; its most likely mode is (64).
@@ -239,7 +240,7 @@ class MultipleModelFilter {
   void describe_models(double dt);
   std::string this_step(double dt) const;
 
-  Estimates entries_;                  ///< what Lift::prior knows of each model's components
+  Estimates entries_;                  ///< what StateAugmentation::prior knows of each model's components
   std::vector<detail::AxisLaw> laws_;  ///< of the models along independent axes, for steps of laws_dt_ seconds
   double laws_dt_ = std::numeric_limits<double>::quiet_NaN();
   std::array<State, 2> states_;

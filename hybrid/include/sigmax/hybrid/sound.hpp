@@ -4,7 +4,7 @@
 
 #include <sigmax/estimation/any_model.hpp>
 #include <sigmax/hybrid/estimates.hpp>
-#include <sigmax/hybrid/lift.hpp>
+#include <sigmax/hybrid/state_augmentation.hpp>
 
 /// What a filter asks of its starts, and of every new estimate.
 namespace sigmax::check {

@@ -7,7 +7,7 @@
 #include <span>
 #include <utility>
 
-#include <sigmax/hybrid/target_life.hpp>
+#include <sigmax/hybrid/track_manager.hpp>
 
 namespace sigmax {
 
@@ -19,14 +19,14 @@ namespace sigmax {
 ///     target.take(0.4);      // missed
 ///
 /// `start` gives the estimate, in the filter's `components()`, with which a target starts at one position; or it is
-/// asked with the plots that wait, the newest last, and how often it has started before, `start(std::span<const Plot>,
-/// std::size_t)`, and gives an optional StartAt: nothing if it wants more of them. A late plot is retrodicted exactly:
-/// the buffer is rolled back and what came after is taken again, so that the result is to the bit that of the right
-/// order. `take` allocates only for a start and for what is recorded. References that are returned live as long as the
-/// target.
+/// asked with the detections that wait, the newest last, and how often it has started before, `start(std::span<const
+/// Detection>, std::size_t)`, and gives an optional StartAt: nothing if it wants more of them. A late detection is
+/// retrodicted exactly: the buffer is rolled back and what came after is taken again, so that the result is to the bit
+/// that of the right order. `take` allocates only for a start and for what is recorded. References that are returned
+/// live as long as the target.
 template <class Filter>
 class Target {
-  using Life = detail::TargetLife<typename Filter::kind>;
+  using Life = detail::TrackManager<typename Filter::kind>;
 
  public:
   using Measurement = typename Filter::Measurement;
@@ -46,26 +46,26 @@ class Target {
     life_.begin_at(filter_, time);
   }
 
-  /// Takes a plot: a measurement, or the news that there was none. `stepped(plot, is_start)` is called after each step
-  /// or start that this completes, with the target as it was left.
-  /// Throws std::invalid_argument, naming the times, if it is older than all that the buffer can roll back, and
-  /// whatever the filter's step throws; the target is then what it was before.
+  /// Takes a detection: a measurement, or the news that there was none. `stepped(detection, is_start)` is called after
+  /// each step or start that this completes, with the target as it was left. Throws std::invalid_argument, naming the
+  /// times, if it is older than all that the buffer can roll back, and whatever the filter's step throws; the target is
+  /// then what it was before.
   template <class Stepped>
-  Verdict take(const Plot& plot, const Stepped& stepped) {
-    return life_.take(filter_, plot, std::cref(stepped));
+  Verdict take(const Detection& detection, const Stepped& stepped) {
+    return life_.take(filter_, detection, std::cref(stepped));
   }
 
   /// @{
   /// The same without `stepped`; what a sensor measured; a position; and none.
-  Verdict take(const Plot& plot) {
-    return take(plot, [](const Plot&, bool) {});
+  Verdict take(const Detection& detection) {
+    return take(detection, [](const Detection&, bool) {});
   }
-  Verdict take(double time, const Measurement& z) requires(Filter::axes != 0) { return take(Plot(time, z)); }
+  Verdict take(double time, const Measurement& z) requires(Filter::axes != 0) { return take(Detection(time, z)); }
   template <Sensing Sensor>
   Verdict take(double time, const MeasuredBy<Sensor>& measured) {
-    return take(Plot(time, measured));
+    return take(Detection(time, measured));
   }
-  Verdict take(double time) { return take(Plot(time)); }
+  Verdict take(double time) { return take(Detection(time)); }
   /// @}
 
   const Filter& filter() const { return filter_; }
@@ -80,8 +80,8 @@ class Target {
   double time() const { return life_.now().time; }
   double accepted_time() const { return life_.now().accepted_time; }
 
-  /// Tells all that is known in other coordinates, as the filter's `transform`; plots that wait or are in the buffer
-  /// stay as they were measured, so a target with either is left alone: returns whether it was told.
+  /// Tells all that is known in other coordinates, as the filter's `transform`; detections that wait or are in the
+  /// buffer stay as they were measured, so a target with either is left alone: returns whether it was told.
   bool transform(const SquareMatrix<Eigen::Dynamic, 3>& A, const Vector<Eigen::Dynamic, 3>& b) {
     return life_.transform(filter_, A.data(), b.data(), static_cast<int>(b.size()));
   }
@@ -104,7 +104,7 @@ class Target {
  private:
   template <class Start>
   static typename Life::StartRule rule_of(Start start) {
-    return [start = std::move(start)](std::span<const Plot> waiting,
+    return [start = std::move(start)](std::span<const Detection> waiting,
                                       [[maybe_unused]] std::size_t starts) -> std::optional<StartAt<Estimates>> {
       if constexpr (std::invocable<const Start&, const Measurement&>) {
         const auto position = waiting.back().template position<Filter::axes>();
@@ -113,7 +113,7 @@ class Target {
       } else {
         const auto result = start(waiting, starts);
         if (!result) return std::nullopt;
-        return StartAt<Estimates>{result->time, detail::starts_of(result->estimates), result->from_plots};
+        return StartAt<Estimates>{result->time, detail::starts_of(result->estimates), result->from_detections};
       }
     };
   }

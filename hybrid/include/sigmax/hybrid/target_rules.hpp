@@ -12,11 +12,11 @@ struct TargetRules {
   double longest_gap = std::numeric_limits<double>::infinity();  ///< s; if none was accepted for longer, the next
                                                                  ///< starts the target again
   std::size_t buffer = 0;    ///< steps that are kept: a measurement that belongs among them may come late
-  std::size_t waiting = 16;  ///< plots that are kept for a start that wants several
+  std::size_t waiting = 16;  ///< detections that are kept for a start that wants several
   bool record = false;       ///< whether all steps are kept, for `smoothed`
 };
 
-/// What became of a plot.
+/// What became of a detection.
 enum class Verdict {
   accepted,
   rejected,

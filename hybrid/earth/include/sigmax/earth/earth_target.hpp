@@ -1,6 +1,6 @@
 #pragma once
 
-#include <sigmax/earth/earth_plot.hpp>
+#include <sigmax/earth/earth_detection.hpp>
 #include <sigmax/hybrid/any_target.hpp>
 
 namespace sigmax {
@@ -15,9 +15,10 @@ struct EarthPoint : TargetPoint {
 /// that its axes are east, north and up wherever it goes.
 ///
 ///     EarthTarget target{choice};
-///     target.follow(plots, [](const EarthPoint& point) { use(point.place.latitude_deg, point.place.longitude_deg); });
+///     target.follow(detections, [](const EarthPoint& point) { use(point.place.latitude_deg,
+///     point.place.longitude_deg); });
 ///
-/// Where steps are recorded, to be smoothed, the tags of plots must grow.
+/// Where steps are recorded, to be smoothed, the tags of detections must grow.
 class EarthTarget : public AnyTarget {
  public:
   /// Throws as AnyTarget, and for one axis.
@@ -29,18 +30,18 @@ class EarthTarget : public AnyTarget {
   /// The frame from which positions are counted, once it has begun.
   const std::optional<LocalFrame>& anchor() const { return anchor_; }
 
-  /// Takes detections on the Earth, see earth_plot.hpp, one after another, and calls visit(point) after each step and
-  /// start. An altitude alone, or a place without one, is a detection. Throws std::invalid_argument for what is no
+  /// Takes detections on the Earth, see earth_detection.hpp, one after another, and calls visit(point) after each step
+  /// and start. An altitude alone, or a place without one, is a detection. Throws std::invalid_argument for what is no
   /// place.
-  void follow(std::span<const AnyPlot> plots, const std::function<void(const EarthPoint&)>& visit);
+  void follow(std::span<const AnyDetection> detections, const std::function<void(const EarthPoint&)>& visit);
 
   /// @{
   /// The same in parts, for who looks at them: a detection in the frame of now, where what it does not tell is at the
   /// place that is expected then; a step with it, or with any in that frame; and a point of that frame on the Earth.
   /// The first and the last want a target that has begun; before that a step is AnyTarget's. A target that does not run
   /// yet misses what is no whole place.
-  AnyPlot in_frame(const AnyPlot& plot) const;
-  void follow_in_frame(const AnyPlot& plot, const std::function<void(const TargetPoint&)>& visit);
+  AnyDetection in_frame(const AnyDetection& detection) const;
+  void follow_in_frame(const AnyDetection& detection, const std::function<void(const TargetPoint&)>& visit);
   EarthPoint on_earth(TargetPoint point, bool is_predicted = false) const;
   /// @}
 

@@ -10,12 +10,12 @@
 namespace sigmax {
 
 /// The detections of each target.
-using Tracks = std::vector<std::vector<AnyPlot>>;
+using Tracks = std::vector<std::vector<AnyDetection>>;
 
 /// What a detection measures as its number i, whatever the sensor: a component of the state, a position's among them;
 /// or a quantity of a radar, or of another sensor.
-using MeasuredQuantity = std::pair<AnyPlot::Sensor, int>;
-MeasuredQuantity quantity_of(const AnyPlot& plot, std::size_t i);
+using MeasuredQuantity = std::pair<AnyDetection::Sensor, int>;
+MeasuredQuantity quantity_of(const AnyDetection& detection, std::size_t i);
 
 /// The standard deviation of the rounding of numbers that come in whole steps; else 0, and infinite where they never
 /// change. No noise of theirs should be fitted below it.
@@ -39,7 +39,7 @@ class TrackScale {
   double change_m() const;
 
   /// The logarithm of the density of a stray detection.
-  double log_stray(const AnyPlot& plot) const;
+  double log_stray(const AnyDetection& detection) const;
 
  private:
   std::map<MeasuredQuantity, double> changes_;

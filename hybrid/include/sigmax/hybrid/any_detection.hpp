@@ -11,13 +11,13 @@ namespace sigmax {
 
 /// What a target is told at one time, in plain numbers. The functions fill one; the tag may be set afterwards:
 ///
-///     AnyPlot plot = AnyPlot::polar(0.2, std::array{5030.2, 0.1096}, std::array{100.0, 4e-6});
-///     plot.tag = 17;
+///     AnyDetection detection = AnyDetection::polar(0.2, std::array{5030.2, 0.1096}, std::array{100.0, 4e-6});
+///     detection.tag = 17;
 ///
 /// Each takes the covariance of what was measured row by row, or its diagonal alone: variances of errors that do not
 /// depend on each other. They throw std::invalid_argument for numbers of measured quantities that no such sensor has,
 /// and for covariances of another size.
-struct AnyPlot {
+struct AnyDetection {
   enum class Sensor {
     none,        ///< there was no measurement
     position,    ///< x, y[, z] in m
@@ -29,7 +29,7 @@ struct AnyPlot {
   };
 
   double time = 0.0;    ///< in s
-  std::size_t tag = 0;  ///< comes back with what the plot leads to
+  std::size_t tag = 0;  ///< comes back with what the detection leads to
   Sensor sensor = Sensor::none;
   int size = 0;                         ///< number of measured quantities, at most six
   std::array<double, 6> z{};            ///< as many numbers
@@ -38,25 +38,25 @@ struct AnyPlot {
   std::array<int, 6> places{};          ///< in the state, where the position and its derivatives lead
 
   /// There was no measurement.
-  static AnyPlot missed(double time);
+  static AnyDetection missed(double time);
 
   /// Along 1, 2 or 3 axes, in m.
-  static AnyPlot position(double time, std::span<const double> z, std::span<const double> covariance);
+  static AnyDetection position(double time, std::span<const double> z, std::span<const double> covariance);
 
   /// Range in m and azimuth, in three axes perhaps also the elevation, in rad.
-  static AnyPlot polar(double time, std::span<const double> z, std::span<const double> covariance,
-                       const std::array<double, 3>& origin = {});
+  static AnyDetection polar(double time, std::span<const double> z, std::span<const double> covariance,
+                            const std::array<double, 3>& origin = {});
 
   /// As `polar`, and then the rate of the range in m/s.
-  static AnyPlot doppler(double time, std::span<const double> z, std::span<const double> covariance,
-                         const std::array<double, 3>& origin = {});
+  static AnyDetection doppler(double time, std::span<const double> z, std::span<const double> covariance,
+                              const std::array<double, 3>& origin = {});
 
   /// The azimuth alone, with its standard deviation.
-  static AnyPlot bearing(double time, Angle azimuth, Angle sigma, const std::array<double, 3>& origin = {});
+  static AnyDetection bearing(double time, Angle azimuth, Angle sigma, const std::array<double, 3>& origin = {});
 
   /// Some components of the state by themselves, as the height and a velocity: those at these places, 1 to 6.
-  static AnyPlot components(double time, std::span<const int> places, std::span<const double> z,
-                            std::span<const double> covariance);
+  static AnyDetection components(double time, std::span<const int> places, std::span<const double> z,
+                                 std::span<const double> covariance);
 
   /// Of the quantity number i, from 0.
   double variance(int i) const { return covariance[static_cast<std::size_t>(i * (size + 1))]; }
@@ -64,12 +64,12 @@ struct AnyPlot {
 
 /// The number of a position or of components that is this component of the state: those of the position come first,
 /// then of the velocity.
-std::optional<double> component_of(const AnyPlot& plot, int component);
+std::optional<double> component_of(const AnyDetection& detection, int component);
 
-/// Along how many of so many axes a plot tells the position; a radar's without an elevation, of three, along two.
-int axes_seen(const AnyPlot& plot, int axes);
+/// Along how many of so many axes a detection tells the position; a radar's without an elevation, of three, along two.
+int axes_seen(const AnyDetection& detection, int axes);
 
 /// Whether components hold some of the velocity.
-bool is_moving(const AnyPlot& plot, int axes);
+bool is_moving(const AnyDetection& detection, int axes);
 
 }  // namespace sigmax

@@ -5,15 +5,16 @@
 
 namespace sigmax::apps {
 
-std::optional<Position> position_of(const AnyPlot& plot, int axes) {
-  if (axes_seen(plot, axes) == 0) return std::nullopt;
-  const bool is_seen = plot.sensor == AnyPlot::Sensor::polar || plot.sensor == AnyPlot::Sensor::doppler;
-  const sigmax::Vector<3> from =
-      to_cartesian({plot.z[0], radians(plot.z[1]), radians(axes_seen(plot, axes) == 3 ? plot.z[2] : 0.0)});
-  Position at = plot.origin;
+std::optional<Position> position_of(const AnyDetection& detection, int axes) {
+  if (axes_seen(detection, axes) == 0) return std::nullopt;
+  const bool is_seen =
+      detection.sensor == AnyDetection::Sensor::polar || detection.sensor == AnyDetection::Sensor::doppler;
+  const sigmax::Vector<3> from = to_cartesian(
+      {detection.z[0], radians(detection.z[1]), radians(axes_seen(detection, axes) == 3 ? detection.z[2] : 0.0)});
+  Position at = detection.origin;
   for (int i = 0; i < axes; ++i)
     at[static_cast<std::size_t>(i)] =
-        is_seen ? at[static_cast<std::size_t>(i)] + from[i] : component_of(plot, i).value_or(0.0);
+        is_seen ? at[static_cast<std::size_t>(i)] + from[i] : component_of(detection, i).value_or(0.0);
   return at;
 }
 
@@ -34,8 +35,8 @@ RandomStream stream_of(std::uint64_t seed, std::string_view track) {
 
 void see_by_radar(Row& row, const std::optional<Position>& position, int axes, const RadarOptions& radar,
                   RandomStream& random, const std::string& file) {
-  if (axes_seen(row.plot, axes) < axes) {
-    row.plot = AnyPlot::missed(row.plot.time);
+  if (axes_seen(row.detection, axes) < axes) {
+    row.detection = AnyDetection::missed(row.detection.time);
     return;
   }
   const auto& sigma = *radar.sigma;
@@ -48,8 +49,9 @@ void see_by_radar(Row& row, const std::optional<Position>& position, int axes, c
         "track with --radar-at=E,N,U",
         file, row.line, shortest(seen.range));
   row.truth = position;
-  row.plot = AnyPlot::polar(row.plot.time, std::array{seen.range, seen.azimuth.radians(), seen.elevation.radians()},
-                            std::array{nan, nan, nan}, at);
+  row.detection =
+      AnyDetection::polar(row.detection.time, std::array{seen.range, seen.azimuth.radians(), seen.elevation.radians()},
+                          std::array{nan, nan, nan}, at);
 }
 
 void add_recording(Subcommand app, RecordingOptions& recording, RadarOptions& radar) {

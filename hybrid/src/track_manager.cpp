@@ -1,4 +1,4 @@
-#include <sigmax/hybrid/target_life.hpp>
+#include <sigmax/hybrid/track_manager.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -10,46 +10,46 @@
 namespace sigmax::detail {
 namespace {
 
-std::optional<Seen> seen_of(const Plot& plot) {
-  if (!plot.seen()) return std::nullopt;
-  return Seen{plot.measurement(), sensor_of_models(plot.sensor())};
+std::optional<Seen> seen_of(const Detection& detection) {
+  if (!detection.seen()) return std::nullopt;
+  return Seen{detection.measurement(), sensor_of_models(detection.sensor())};
 }
 
 }  // namespace
 
 template <ScalableUncertainty Kind>
-TargetLife<Kind>::TargetLife(const Filter& filter, StartRule start, const TargetRules& rules)
+TrackManager<Kind>::TrackManager(const Filter& filter, StartRule start, const TargetRules& rules)
     : start_(std::move(start)), rules_(rules), gate_(Gate::probability(rules.gate_probability)) {
   if (!(rules.longest_gap > 0.0)) throw std::invalid_argument("the longest gap of a target is not positive");
   now_.waiting.reserve(room());
-  buffer_.assign(rules.buffer + 1, Entry{filter.state(), now_, Plot{}});
+  buffer_.assign(rules.buffer + 1, Entry{filter.state(), now_, Detection{}});
   for (Entry& entry : buffer_) entry.life.waiting.reserve(room());
 }
 
 template <ScalableUncertainty Kind>
-std::size_t TargetLife<Kind>::room() const {
+std::size_t TrackManager<Kind>::room() const {
   return std::max({rules_.waiting, rules_.rejections, std::size_t{1}});
 }
 
 template <ScalableUncertainty Kind>
-void TargetLife<Kind>::begin_at(const Filter& filter, double time) {
+void TrackManager<Kind>::begin_at(const Filter& filter, double time) {
   if (!std::isfinite(time)) throw std::invalid_argument("a target starts at a time that is not finite");
-  begin(filter, time, Plot(time));
+  begin(filter, time, Detection(time));
 }
 
 template <ScalableUncertainty Kind>
-Verdict TargetLife<Kind>::take(Filter& filter, const Plot& plot, const Stepped& stepped) {
-  if (!std::isfinite(plot.time)) throw std::invalid_argument("a measurement of a time that is not finite");
+Verdict TrackManager<Kind>::take(Filter& filter, const Detection& detection, const Stepped& stepped) {
+  if (!std::isfinite(detection.time)) throw std::invalid_argument("a measurement of a time that is not finite");
   std::size_t place = kept_;  // behind all that is not later
-  while (place > 0 && entry(place - 1).plot.time > plot.time) --place;
+  while (place > 0 && entry(place - 1).detection.time > detection.time) --place;
   const double earliest = (place < kept_ ? entry(place).life : now_).latest();
-  if (plot.time < earliest)
-    throw std::invalid_argument("a measurement of " + std::to_string(plot.time) + " s came after one of " +
+  if (detection.time < earliest)
+    throw std::invalid_argument("a measurement of " + std::to_string(detection.time) + " s came after one of " +
                                 std::to_string(now_.latest()) + " s; the buffer goes back to " +
                                 std::to_string(earliest) + " s");
   if (place < kept_) restore(filter, entry(place));
-  for (std::size_t k = kept_; k > place; --k) entry(k).plot = entry(k - 1).plot;
-  entry(place).plot = plot;
+  for (std::size_t k = kept_; k > place; --k) entry(k).detection = entry(k - 1).detection;
+  entry(place).detection = detection;
   Verdict verdict = Verdict::missed;
   try {
     verdict = replay(filter, place, stepped);
@@ -57,7 +57,7 @@ Verdict TargetLife<Kind>::take(Filter& filter, const Plot& plot, const Stepped& 
   } catch (...) {  // back to what was, which succeeded before
     restore(filter, entry(place));
     for (std::size_t k = place; k < kept_; ++k) {
-      entry(k).plot = entry(k + 1).plot;
+      entry(k).detection = entry(k + 1).detection;
       replay(filter, k, stepped);
     }
     throw;
@@ -70,7 +70,7 @@ Verdict TargetLife<Kind>::take(Filter& filter, const Plot& plot, const Stepped& 
 }
 
 template <ScalableUncertainty Kind>
-void TargetLife<Kind>::restore(Filter& filter, const Entry& before) {
+void TrackManager<Kind>::restore(Filter& filter, const Entry& before) {
   filter.restore(before.state);
   now_ = before.life;
   record_.erase(record_.begin() + static_cast<std::ptrdiff_t>(now_.recorded), record_.end());
@@ -78,56 +78,56 @@ void TargetLife<Kind>::restore(Filter& filter, const Entry& before) {
 
 /// Takes an entry of the buffer, from where the target stands.
 template <ScalableUncertainty Kind>
-Verdict TargetLife<Kind>::replay(Filter& filter, std::size_t k, const Stepped& stepped) {
+Verdict TrackManager<Kind>::replay(Filter& filter, std::size_t k, const Stepped& stepped) {
   Entry& event = entry(k);
   event.state = filter.state();
   event.life = now_;
-  return process(filter, event.plot, stepped);
+  return process(filter, event.detection, stepped);
 }
 
 template <ScalableUncertainty Kind>
-Verdict TargetLife<Kind>::process(Filter& filter, const Plot& plot, const Stepped& stepped) {
-  if (now_.running && plot.time - now_.accepted_time > rules_.longest_gap) {
+Verdict TrackManager<Kind>::process(Filter& filter, const Detection& detection, const Stepped& stepped) {
+  if (now_.running && detection.time - now_.accepted_time > rules_.longest_gap) {
     now_.running = false;
     now_.waiting.clear();
   }
   if (!now_.running) {
-    keep_waiting(plot);
-    return try_to_start(filter, plot, stepped);
+    keep_waiting(detection);
+    return try_to_start(filter, detection, stepped);
   }
-  const Verdict verdict = step(filter, plot);
+  const Verdict verdict = step(filter, detection);
   if (verdict == Verdict::rejected && rules_.rejections > 0 && now_.waiting.size() == rules_.rejections) {
     now_.running = false;
-    if (rules_.record) {  // the plot is of a start, or waits for one
+    if (rules_.record) {  // the detection is of a start, or waits for one
       record_.pop_back();
       now_.recorded = record_.size();
     }
-    return try_to_start(filter, plot, stepped);
+    return try_to_start(filter, detection, stepped);
   }
-  stepped(plot, false);
+  stepped(detection, false);
   return verdict;
 }
 
 template <ScalableUncertainty Kind>
-Verdict TargetLife<Kind>::step(Filter& filter, const Plot& plot) {
-  const double dt = plot.time - now_.time;
-  const auto seen = seen_of(plot);
+Verdict TrackManager<Kind>::step(Filter& filter, const Detection& detection) {
+  const double dt = detection.time - now_.time;
+  const auto seen = seen_of(detection);
   filter.step(dt, seen ? &*seen : nullptr, gate_);
-  now_.time = plot.time;
+  now_.time = detection.time;
   if (filter.accepted()) {
-    now_.accepted_time = plot.time;
+    now_.accepted_time = detection.time;
     now_.waiting.clear();
-  } else if (plot.seen()) {
+  } else if (detection.seen()) {
     ++now_.rejected;
-    if (rules_.rejections > 0) keep_waiting(plot);
+    if (rules_.rejections > 0) keep_waiting(detection);
   }
-  record(filter, dt, plot, false);
-  return filter.accepted() ? Verdict::accepted : plot.seen() ? Verdict::rejected : Verdict::missed;
+  record(filter, dt, detection, false);
+  return filter.accepted() ? Verdict::accepted : detection.seen() ? Verdict::rejected : Verdict::missed;
 }
 
-/// Asks for a start with the plots that wait; those that are not in it are steps after it.
+/// Asks for a start with the detections that wait; those that are not in it are steps after it.
 template <ScalableUncertainty Kind>
-Verdict TargetLife<Kind>::try_to_start(Filter& filter, const Plot& plot, const Stepped& stepped) {
+Verdict TrackManager<Kind>::try_to_start(Filter& filter, const Detection& detection, const Stepped& stepped) {
   const bool again = now_.starts > 0;
   const auto start = start_(now_.waiting, now_.starts);
   if (!start) return Verdict::waiting;
@@ -135,11 +135,11 @@ Verdict TargetLife<Kind>::try_to_start(Filter& filter, const Plot& plot, const S
     filter.restart(std::as_const(start->estimates).view(0));
   else
     filter.restart(start->estimates);
-  begin(filter, start->time, plot);
-  stepped(plot, true);
-  const std::vector<Plot> later = start->from_plots ? std::vector<Plot>{} : std::move(now_.waiting);
+  begin(filter, start->time, detection);
+  stepped(detection, true);
+  const std::vector<Detection> later = start->from_detections ? std::vector<Detection>{} : std::move(now_.waiting);
   now_.waiting.clear();
-  for (const Plot& each : later) {
+  for (const Detection& each : later) {
     step(filter, each);
     stepped(each, false);
   }
@@ -148,30 +148,30 @@ Verdict TargetLife<Kind>::try_to_start(Filter& filter, const Plot& plot, const S
 
 /// Where there is no room, a miss goes first, and then the oldest.
 template <ScalableUncertainty Kind>
-void TargetLife<Kind>::keep_waiting(const Plot& plot) {
+void TrackManager<Kind>::keep_waiting(const Detection& detection) {
   auto& waiting = now_.waiting;
   if (waiting.size() == room()) {
-    const auto miss = std::find_if(waiting.begin(), waiting.end(), [](const Plot& each) { return !each.seen(); });
+    const auto miss = std::find_if(waiting.begin(), waiting.end(), [](const Detection& each) { return !each.seen(); });
     waiting.erase(miss == waiting.end() ? waiting.begin() : miss);
   }
-  waiting.push_back(plot);
+  waiting.push_back(detection);
 }
 
 template <ScalableUncertainty Kind>
-void TargetLife<Kind>::begin(const Filter& filter, double time, const Plot& plot) {
+void TrackManager<Kind>::begin(const Filter& filter, double time, const Detection& detection) {
   now_.running = true;
   now_.time = now_.accepted_time = time;
   ++now_.starts;
-  record(filter, 0.0, plot, true);
+  record(filter, 0.0, detection, true);
 }
 
 template <ScalableUncertainty Kind>
-void TargetLife<Kind>::record(const Filter& filter, double dt, const Plot& plot, bool is_start) {
+void TrackManager<Kind>::record(const Filter& filter, double dt, const Detection& detection, bool is_start) {
   if (!rules_.record) return;
-  const auto seen = filter.accepted() ? seen_of(plot) : std::nullopt;
+  const auto seen = filter.accepted() ? seen_of(detection) : std::nullopt;
   const auto histories = filter.state().histories.all();
   record_.push_back({now_.time,
-                     plot.tag,
+                     detection.tag,
                      is_start,
                      seen ? std::optional(filter.nis()) : std::nullopt,
                      filter.recorded(dt, seen ? &*seen : nullptr),
@@ -180,7 +180,7 @@ void TargetLife<Kind>::record(const Filter& filter, double dt, const Plot& plot,
 }
 
 template <ScalableUncertainty Kind>
-bool TargetLife<Kind>::transform(Filter& filter, const double* A, const double* b, int axes) {
+bool TrackManager<Kind>::transform(Filter& filter, const double* A, const double* b, int axes) {
   if (!now_.running || !now_.waiting.empty() || rules_.buffer > 0) return false;
   filter.transform(A, b, axes);
   std::size_t k = record_.size();
@@ -196,8 +196,8 @@ bool TargetLife<Kind>::transform(Filter& filter, const double* A, const double* 
 }
 
 template <ScalableUncertainty Kind>
-void TargetLife<Kind>::smoothed(const Filter& filter,
-                                const std::function<void(const Kept&, const HybridEstimate<Kind>&)>& visit) const {
+void TrackManager<Kind>::smoothed(const Filter& filter,
+                                  const std::function<void(const Kept&, const HybridEstimate<Kind>&)>& visit) const {
   FixedIntervalSmoother<Kind> smoother(filter);
   std::vector<HybridEstimate<Kind>> states;
   for (std::size_t first = 0, end = 0; first < record_.size(); first = end) {
@@ -219,7 +219,7 @@ void TargetLife<Kind>::smoothed(const Filter& filter,
 }
 
 template <ScalableUncertainty Kind>
-void TargetLife<Kind>::explained(const std::function<void(const Kept&, std::size_t)>& visit) const {
+void TrackManager<Kind>::explained(const std::function<void(const Kept&, std::size_t)>& visit) const {
   std::vector<std::size_t> modes(record_.size());
   std::size_t h = 0;
   for (std::size_t k = record_.size(); k-- > 0;) {
@@ -233,7 +233,7 @@ void TargetLife<Kind>::explained(const std::function<void(const Kept&, std::size
     if (record_[k].is_start || modes[k] != modes[k - 1]) visit(record_[k], modes[k]);
 }
 
-template class TargetLife<Random>;
-template class TargetLife<Fuzzy>;
+template class TrackManager<Random>;
+template class TrackManager<Fuzzy>;
 
 }  // namespace sigmax::detail

@@ -9,8 +9,8 @@
 #include <span>
 #include <vector>
 
+#include <sigmax/hybrid/detection.hpp>
 #include <sigmax/hybrid/fixed_interval_smoother.hpp>
-#include <sigmax/hybrid/plot.hpp>
 #include <sigmax/hybrid/target_rules.hpp>
 
 namespace sigmax {
@@ -19,7 +19,7 @@ namespace sigmax {
 template <ScalableUncertainty Kind>
 struct KeptStep {
   double time;
-  std::size_t tag;  ///< of the plot
+  std::size_t tag;  ///< of the detection
   bool is_start;
   std::optional<double> nis;
   RecordedStep<Kind> step;
@@ -36,29 +36,29 @@ struct Life {
   std::size_t rejected = 0;
   std::size_t starts = 0;
   std::size_t recorded = 0;
-  std::vector<Plot> waiting;  ///< for a start; while it runs, those rejected in a row
+  std::vector<Detection> waiting;  ///< for a start; while it runs, those rejected in a row
 
-  /// The time of the latest plot that is in it.
+  /// The time of the latest detection that is in it.
   double latest() const { return waiting.empty() ? time : std::max(time, waiting.back().time); }
 };
 
 /// The life of a target, compiled once for each kind; see Target. The filter is the caller's, always the same.
 template <ScalableUncertainty Kind>
-class TargetLife {
+class TrackManager {
   using Filter = MultipleModelFilter<Kind>;
 
  public:
   using Kept = KeptStep<Kind>;
-  using Stepped = std::function<void(const Plot&, bool)>;
-  using StartRule = std::function<std::optional<StartAt<Estimates>>(std::span<const Plot>, std::size_t)>;
+  using Stepped = std::function<void(const Detection&, bool)>;
+  using StartRule = std::function<std::optional<StartAt<Estimates>>(std::span<const Detection>, std::size_t)>;
 
   /// Throws std::invalid_argument if a rule makes no sense.
-  TargetLife(const Filter& filter, StartRule start, const TargetRules& rules);
+  TrackManager(const Filter& filter, StartRule start, const TargetRules& rules);
 
   /// Runs already: the filter stands at `time`, in s. Throws std::invalid_argument if that is not finite.
   void begin_at(const Filter& filter, double time);
 
-  Verdict take(Filter& filter, const Plot& plot, const Stepped& stepped);
+  Verdict take(Filter& filter, const Detection& detection, const Stepped& stepped);
   bool transform(Filter& filter, const double* A, const double* b, int axes);
   void smoothed(const Filter& filter, const std::function<void(const Kept&, const HybridEstimate<Kind>&)>& visit) const;
   void explained(const std::function<void(const Kept&, std::size_t)>& visit) const;
@@ -67,9 +67,9 @@ class TargetLife {
 
  private:
   struct Entry {
-    HybridEstimate<Kind> state;  ///< before the plot, and the life then
+    HybridEstimate<Kind> state;  ///< before the detection, and the life then
     Life life;
-    Plot plot;
+    Detection detection;
   };
 
   std::size_t room() const;
@@ -77,12 +77,12 @@ class TargetLife {
   void restore(Filter& filter, const Entry& before);
 
   Verdict replay(Filter& filter, std::size_t k, const Stepped& stepped);
-  Verdict process(Filter& filter, const Plot& plot, const Stepped& stepped);
-  Verdict try_to_start(Filter& filter, const Plot& plot, const Stepped& stepped);
-  Verdict step(Filter& filter, const Plot& plot);
-  void keep_waiting(const Plot& plot);
-  void begin(const Filter& filter, double time, const Plot& plot);
-  void record(const Filter& filter, double dt, const Plot& plot, bool is_start);
+  Verdict process(Filter& filter, const Detection& detection, const Stepped& stepped);
+  Verdict try_to_start(Filter& filter, const Detection& detection, const Stepped& stepped);
+  Verdict step(Filter& filter, const Detection& detection);
+  void keep_waiting(const Detection& detection);
+  void begin(const Filter& filter, double time, const Detection& detection);
+  void record(const Filter& filter, double dt, const Detection& detection, bool is_start);
 
   StartRule start_;
   TargetRules rules_;
@@ -94,8 +94,8 @@ class TargetLife {
   std::size_t kept_ = 0;
 };
 
-extern template class TargetLife<Random>;
-extern template class TargetLife<Fuzzy>;
+extern template class TrackManager<Random>;
+extern template class TrackManager<Fuzzy>;
 
 }  // namespace detail
 }  // namespace sigmax

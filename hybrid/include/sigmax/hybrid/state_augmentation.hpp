@@ -8,7 +8,7 @@
 namespace sigmax {
 
 /// What stands for a component that a model lacks when it is mixed into one that has it. Going down drops components.
-enum class Lift {
+enum class StateAugmentation {
   zero,               ///< value 0, variance 0
   borrowed_variance,  ///< value 0, the receiving model's variance, no cross terms (the authors' program)
   unbiased,           ///< value and covariance of the receiving model, uncorrelated with the rest (Yuan, Bar-Shalom,

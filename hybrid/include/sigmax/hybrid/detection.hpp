@@ -12,31 +12,31 @@
 namespace sigmax {
 
 /// What a tracker is told at one time: a measurement with the sensor that made it, or that there was none. The tag, the
-/// number of a row say, comes back with what the plot leads to.
-class Plot {
+/// number of a row say, comes back with what the detection leads to.
+class Detection {
  public:
   double time;  ///< in s
   std::size_t tag = 0;
 
   /// There was no measurement.
-  explicit Plot(double t = 0.0, std::size_t number = 0) : time(t), tag(number) {}
+  explicit Detection(double t = 0.0, std::size_t number = 0) : time(t), tag(number) {}
 
   template <Sensing Sensor>
-  Plot(double t, const MeasurementOf<Sensor>& z, const Sensor& sensor, std::size_t number = 0)
-      : Plot(t, detail::view(z), sensor, number) {}
+  Detection(double t, const MeasurementOf<Sensor>& z, const Sensor& sensor, std::size_t number = 0)
+      : Detection(t, detail::view(z), sensor, number) {}
 
   template <Sensing Sensor>
-  Plot(double t, const MeasuredBy<Sensor>& measured, std::size_t number = 0)
-      : Plot(t, measured.z, measured.sensor, number) {}
+  Detection(double t, const MeasuredBy<Sensor>& measured, std::size_t number = 0)
+      : Detection(t, measured.z, measured.sensor, number) {}
 
   /// A position along as many axes as z has.
   template <int N, int MaxN>
     requires(MaxN <= 3)
-  Plot(double t, const Gaussian<N, MaxN>& z, std::size_t number = 0)
-      : Plot(t, detail::view(z), detail::position_sensor(static_cast<int>(z.size())), number) {}
+  Detection(double t, const Gaussian<N, MaxN>& z, std::size_t number = 0)
+      : Detection(t, detail::view(z), detail::position_sensor(static_cast<int>(z.size())), number) {}
 
   /// The same with numbers.
-  Plot(double t, detail::ConstView z, AnySensor sensor, std::size_t number = 0)
+  Detection(double t, detail::ConstView z, AnySensor sensor, std::size_t number = 0)
       : time(t), tag(number), size_(z.n), sensor_(std::move(sensor)) {
     std::copy_n(z.mean, size_, z_.begin());
     std::copy_n(z.covariance, size_ * size_, covariance_.begin());
@@ -69,13 +69,13 @@ class Plot {
   std::optional<AnySensor> sensor_;
 };
 
-/// Where a target starts: estimates, of all models together or one each, and their time. `from_plots` says that the
-/// plots that waited are in them; otherwise those are taken as measurements after the start.
+/// Where a target starts: estimates, of all models together or one each, and their time. `from_detections` says that
+/// the detections that waited are in them; otherwise those are taken as measurements after the start.
 template <class Estimates>
 struct StartAt {
   double time;
   Estimates estimates;
-  bool from_plots = true;
+  bool from_detections = true;
 };
 
 }  // namespace sigmax

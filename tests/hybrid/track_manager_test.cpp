@@ -2,7 +2,7 @@
 
 #include "hybrid/targets.hpp"
 
-namespace target_life_test {
+namespace track_manager_test {
 
 template <class Filter>
 Target<Filter> recording(const Filter& filter, std::size_t buffer = 0) {
@@ -20,15 +20,15 @@ void require_same_state(const State& found, const State& expected, double tolera
   ASSERT_EQ(found.most_likely_mode, expected.most_likely_mode);
 }
 
-TEST(TargetLife, IsSmoothedFromStartToStartAsTheFiltersOwnRecordIs) {
+TEST(TrackManager, IsSmoothedFromStartToStartAsTheFiltersOwnRecordIs) {
   with_every_filter([](const auto& filter) {
     auto target = recording(filter);
     std::vector<std::vector<decltype(filter.recorded(0.0))>> segments;
     std::vector<std::pair<std::size_t, bool>> told;
     std::vector<double> times;
     std::vector<std::optional<double>> nis;
-    for (const Plot& plot : plots(80, 40))
-      target.take(plot, [&](const Plot& each, bool is_start) {
+    for (const Detection& detection : detections(80, 40))
+      target.take(detection, [&](const Detection& each, bool is_start) {
         told.push_back({each.tag, is_start});
         if (is_start) segments.emplace_back();
         const double dt = is_start ? 0.0 : target.time() - times.back();
@@ -58,19 +58,19 @@ TEST(TargetLife, IsSmoothedFromStartToStartAsTheFiltersOwnRecordIs) {
   });
 }
 
-TEST(TargetLife, IsNotRecordedUnlessItIsAskedFor) {
+TEST(TrackManager, IsNotRecordedUnlessItIsAskedFor) {
   Target target{imm(), one_point_start};
-  for (const Plot& plot : plots(10)) target.take(plot);
+  for (const Detection& detection : detections(10)) target.take(detection);
   target.smoothed([](const auto&, const auto&) { FAIL(); });
 }
 
 /// Whatever comes late by no more than the buffer, also the record.
-TEST(TargetLife, OfLatePlotsIsThatOfTheRightOrderToTheBit) {
-  const auto all = plots(28, 14);
+TEST(TrackManager, OfLateDetectionsIsThatOfTheRightOrderToTheBit) {
+  const auto all = detections(28, 14);
   with_every_filter([&](const auto& filter) {
     const auto fresh = recording(filter, 4);
     auto in_order = fresh;
-    for (const Plot& plot : all) in_order.take(plot);
+    for (const Detection& detection : all) in_order.take(detection);
     ASSERT_GE(in_order.starts(), 2U);
     std::vector<std::size_t> tags;
     std::vector<std::decay_t<decltype(filter.state())>> expected;
@@ -81,7 +81,7 @@ TEST(TargetLife, OfLatePlotsIsThatOfTheRightOrderToTheBit) {
     std::mt19937 generator(1);
     for (int shuffle = 0; shuffle < 20; ++shuffle) {
       auto shuffled = fresh;
-      for (const Plot& plot : late(all, 1, 4, [&] { return generator() % 4; })) shuffled.take(plot);
+      for (const Detection& detection : late(all, 1, 4, [&] { return generator() % 4; })) shuffled.take(detection);
       std::size_t k = 0;
       shuffled.smoothed([&](const auto& kept, const auto& state) {
         ASSERT_LT(k, tags.size());
@@ -100,39 +100,41 @@ TEST(TargetLife, OfLatePlotsIsThatOfTheRightOrderToTheBit) {
 const SquareMatrix<2> turned{{0.8, -0.6}, {0.6, 0.8}};
 const Vector<2> moved(5000.0, -3000.0);
 
-Plot in_other_coordinates(const Plot& plot) {
-  const auto z = plot.position<2>();
-  if (!z) return plot;
-  return {plot.time, Gaussian<2>{turned * z->mean + moved, turned * z->covariance * turned.transpose()}, plot.tag};
+Detection in_other_coordinates(const Detection& detection) {
+  const auto z = detection.position<2>();
+  if (!z) return detection;
+  return {detection.time, Gaussian<2>{turned * z->mean + moved, turned * z->covariance * turned.transpose()},
+          detection.tag};
 }
 
-TEST(TargetLife, InOtherCoordinatesItIsThatOfMeasurementsInThem) {
+TEST(TrackManager, InOtherCoordinatesItIsThatOfMeasurementsInThem) {
   for_each(every_filter(), [](const TargetChoice& choice) {
     if (choice.scheme == Scheme::histories) return;
-    AnyFilter(with(choice, Lift::unbiased)).do_with([](const auto& filter) {  // borrowing variances alone knows of axes
-      auto target = recording(filter), expected = target;
-      std::size_t told = 0;
-      bool there = false;
-      for (const Plot& plot : plots(35)) {
-        if (!there && told > 20) there = target.transform(turned, moved);
-        expected.take(in_other_coordinates(plot), [&](const Plot&, bool) { ++told; });
-        target.take(there ? in_other_coordinates(plot) : plot);
-      }
-      ASSERT_TRUE(there);
-      ASSERT_EQ(target.starts(), 1U);
-      require_same_state(target.filter().state(), expected.filter().state(), 1e-8);
-      std::vector<std::decay_t<decltype(filter.state())>> smoothed;
-      expected.smoothed([&](const auto&, const auto& state) { smoothed.push_back(state); });
-      std::size_t k = 0;
-      target.smoothed([&](const auto&, const auto& state) { require_same_state(state, smoothed[k++], 1e-7); });
-      EXPECT_EQ(k, smoothed.size());
-    });
+    AnyFilter(with(choice, StateAugmentation::unbiased))
+        .do_with([](const auto& filter) {  // borrowing variances alone knows of axes
+          auto target = recording(filter), expected = target;
+          std::size_t told = 0;
+          bool there = false;
+          for (const Detection& detection : detections(35)) {
+            if (!there && told > 20) there = target.transform(turned, moved);
+            expected.take(in_other_coordinates(detection), [&](const Detection&, bool) { ++told; });
+            target.take(there ? in_other_coordinates(detection) : detection);
+          }
+          ASSERT_TRUE(there);
+          ASSERT_EQ(target.starts(), 1U);
+          require_same_state(target.filter().state(), expected.filter().state(), 1e-8);
+          std::vector<std::decay_t<decltype(filter.state())>> smoothed;
+          expected.smoothed([&](const auto&, const auto& state) { smoothed.push_back(state); });
+          std::size_t k = 0;
+          target.smoothed([&](const auto&, const auto& state) { require_same_state(state, smoothed[k++], 1e-7); });
+          EXPECT_EQ(k, smoothed.size());
+        });
   });
 }
 
-TEST(TargetLife, IsToldInOtherCoordinatesBackToTheLastStartOnly) {
-  auto target = recording(imm(Lift::unbiased));
-  for (const Plot& plot : plots(80, 40)) target.take(plot);
+TEST(TrackManager, IsToldInOtherCoordinatesBackToTheLastStartOnly) {
+  auto target = recording(imm(StateAugmentation::unbiased));
+  for (const Detection& detection : detections(80, 40)) target.take(detection);
   ASSERT_EQ(target.starts(), 2U);
   std::vector<Vector<2>> before;
   std::size_t last_start = 0;
@@ -148,10 +150,10 @@ TEST(TargetLife, IsToldInOtherCoordinatesBackToTheLastStartOnly) {
   });
 }
 
-TEST(TargetLife, OfWhatWaitsOrIsBufferedStaysWhereItIs) {
+TEST(TrackManager, OfWhatWaitsOrIsBufferedStaysWhereItIs) {
   Target waiting{imm(), one_point_start};
   EXPECT_FALSE(waiting.transform(turned, moved)) << "it has not started";
-  const auto all = plots(20);
+  const auto all = detections(20);
   waiting.take(all[0]);
   EXPECT_TRUE(waiting.transform(turned, moved));
   EXPECT_EQ(waiting.take(in_other_coordinates(all[1])), Verdict::accepted);
@@ -161,8 +163,8 @@ TEST(TargetLife, OfWhatWaitsOrIsBufferedStaysWhereItIs) {
   EXPECT_PRED_FORMAT2(same_filter, waiting.filter(), before);
 
   auto buffered = recording(imm(), 2);
-  for (const Plot& plot : all) buffered.take(plot);
+  for (const Detection& detection : all) buffered.take(detection);
   EXPECT_FALSE(buffered.transform(turned, moved));
 }
 
-}  // namespace target_life_test
+}  // namespace track_manager_test
