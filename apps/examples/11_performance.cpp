@@ -79,7 +79,7 @@ int main() {
       std::vector<std::size_t> report;
       for (std::size_t q = 0; q < bins.size(); ++q)
         report.push_back(bins[q].bin((by_density ? draw_by_density : draw_by_triangle)(triangles[q][truth], random)));
-      const auto right = [&](const auto& classifier) { return credit(classifier.posterior(report), truth); };
+      const auto right = [&](const auto& classifier) { return credit(classifier.posterior(InOrder{report}), truth); };
       contest.add({right(density), right(triangle), right(proportion), right(ratio), right(dubois_prade)});
     }
     contest.print(

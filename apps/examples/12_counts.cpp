@@ -44,7 +44,7 @@ int main() {
         for (const auto& feature : probable) row.push_back(random.draw(feature.row(truth)));
       const auto right = [&](const auto& classifier) {
         Belief belief{classifier.prior()};
-        classifier.observe_all(belief, rows);
+        classifier.observe_all(belief, std::vector<InOrder>(rows.begin(), rows.end()));
         return credit(belief, truth);
       };
       contest.add({right(sigma), right(ratio), right(dubois_prade), right(sandri)});

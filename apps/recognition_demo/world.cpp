@@ -28,7 +28,7 @@ Trace follow(const NamedClassifier& contestant, const Drawn& drawn) {
     Belief belief{classifier.prior()};
     for (const Readings& report : drawn.reports) {
       try {
-        classifier.observe(belief, report);
+        classifier.observe(belief, InOrder{report});
       } catch (const std::domain_error&) {
         ++trace.refused;
       }

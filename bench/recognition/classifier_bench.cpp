@@ -47,7 +47,7 @@ void ClassifyCrisp(benchmark::State& state) {
   const auto all = reports();
   std::size_t k = 0;
   for (auto _ : state) {
-    const auto belief = classifier.posterior(all[k++ % all.size()]);
+    const auto belief = classifier.posterior(InOrder{all[k++ % all.size()]});
     benchmark::DoNotOptimize(belief.logs().data());
   }
   state.SetItemsProcessed(state.iterations());
@@ -61,7 +61,7 @@ void ObserveCrisp(benchmark::State& state) {
   const auto all = reports();
   std::size_t k = 0;
   for (auto _ : state) {
-    classifier.observe(belief, all[k++ % all.size()]);
+    classifier.observe(belief, InOrder{all[k++ % all.size()]});
     benchmark::DoNotOptimize(belief.logs().data());
   }
   state.SetItemsProcessed(state.iterations());

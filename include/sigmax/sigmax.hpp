@@ -2,6 +2,10 @@
 
 /// Everything of sigmax.
 
+#if !__has_include(<Eigen/Dense>)
+#error "<sigmax/sigmax.hpp> needs Eigen 3.4 (libeigen3-dev); <sigmax/core.hpp> and sigmax/recognition/*.hpp do without"
+#endif
+
 #include <sigmax/core.hpp>
 #include <sigmax/estimation/any_model.hpp>
 #include <sigmax/estimation/any_sensor.hpp>

@@ -95,7 +95,7 @@ TablePrediction TableClassifier::predict(std::span<const std::size_t> readings) 
         Belief belief{classifier.prior()};
         bool excluded = false;
         try {
-          classifier.observe(belief, readings);
+          classifier.observe(belief, InOrder{readings});
         } catch (const std::domain_error&) {
           excluded = true;
         }
@@ -109,7 +109,9 @@ PatternExplanation TableClassifier::explain(std::span<const std::size_t> reading
   const TablePrediction prediction = predict(readings);
   const auto best = std::visit([](const auto& belief) { return best_patterns(belief, 2); }, prediction.belief);
   return std::visit(
-      [&](const auto& classifier) { return sigmax::explain(classifier, readings, best.front(), best.back()); },
+      [&](const auto& classifier) {
+        return sigmax::explain(classifier, classifier.report(InOrder{readings}), best.front(), best.back());
+      },
       classifier_);
 }
 

@@ -1,5 +1,5 @@
 # cmake -DCOMPILER=… "-DFOLDERS=…" -P check.cmake: case 0 of misuse.cpp compiles, no other does, and the compiler says in at
-# most 60 lines what the comment of the case matches.
+# most 60 lines what the comment of the case matches. Without Eigen, <sigmax/sigmax.hpp> names the headers that do without.
 foreach(folder ${FOLDERS})
   list(APPEND options -isystem ${folder})
 endforeach()
@@ -20,3 +20,11 @@ foreach(line ${cases})
     message(SEND_ERROR "case ${case} of ${source}: expected \"${words}\" in at most 60 lines, found ${length}:\n${said}")
   endif()
 endforeach()
+
+list(FILTER FOLDERS EXCLUDE REGEX eigen)
+list(TRANSFORM FOLDERS PREPEND -I)
+set(source "${CMAKE_CURRENT_LIST_DIR}/../../include/sigmax/sigmax.hpp")
+execute_process(COMMAND ${COMPILER} -std=c++20 -fsyntax-only -x c++ ${FOLDERS} "${source}" ERROR_VARIABLE said)
+if(NOT said MATCHES "core.hpp. and sigmax/recognition/[*].hpp do without")
+  message(SEND_ERROR "without Eigen: found\n${said}")
+endif()

@@ -21,14 +21,22 @@ int main() {
   filter.step(1.0, PolarSensor<2>{}.measurement({1414.0, 0.7854}, {10.0, 0.001}));
 #elif CASE == 4  // Angle
   filter.step(1.0, BearingSensor{}.measurement(45.0, 0.1));
-#elif CASE == 5  // step
+#elif CASE == 5  // this sensor does not measure the states of the bank
   filter.step(1.0, PolarSensor<3>{}.measurement({1414.0, degrees(45)}, {10.0, degrees(0.1)}));
-#elif CASE == 6  // step
+#elif CASE == 6  // a Gaussian is a position along the bank's axes
   filter.step(1.0, Gaussian<3>{Vector<3>(1.0, 2.0, 3.0), SquareMatrix<3>::Identity()});
 #elif CASE == 7  // step
   filter.step(1.0, z, 0.999);
 #else
   filter.step(1.0, PolarSensor<2>{}.measurement({1414.0, degrees(45)}, {10.0, degrees(0.1)}), Gate::probability(0.999));
   filter.step(1.0, z);
+#endif
+
+  const RandomVariable legs{"legs", {"2", "4"}};
+  const Classifier classifier{uninformative(mode), Relation{legs, mode, {{0.9, 0.1}, {0.1, 0.9}}}};
+#if CASE == 8  // a report is Reading.legs, "4".
+  classifier.posterior(std::vector<std::size_t>{1});
+#else
+  classifier.posterior(Reading{legs, "4"});
 #endif
 }

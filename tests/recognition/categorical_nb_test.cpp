@@ -83,7 +83,7 @@ TEST_P(CategoricalNB, OfScikitLearnHasTheSamePosteriors) {
   for (std::size_t r = 0; r < labels.numbers.size(); ++r) {
     ASSERT_TRUE(posteriors.read(reinterpret_cast<char*>(expected.data()),
                                 static_cast<std::streamsize>(expected.size() * sizeof(double))));
-    ASSERT_CLOSE(classifier.posterior(row(r)).distribution().values(), expected, 1e-9) << "row " << r;
+    ASSERT_CLOSE(classifier.posterior(InOrder{row(r)}).distribution().values(), expected, 1e-9) << "row " << r;
   }
   EXPECT_EQ(posteriors.peek(), std::ifstream::traits_type::eof());
 }

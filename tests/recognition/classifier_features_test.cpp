@@ -80,7 +80,7 @@ TYPED_PROPERTY(ClassifierWithFeatures, MultipliesWhatTheFeaturesSaySkipsWhatIsMi
     const Readings readings = with.any_readings();
     for (double& value : expected) value = std::pow(value, forgetting);
     expected = plain::update(by_kind<TypeParam>, expected, with.likelihood(readings));
-    classifier.observe(belief, readings, forgetting);
+    classifier.observe(belief, InOrder{readings}, forgetting);
     require_near(belief.distribution().values(), expected);
   }
 }
@@ -94,8 +94,8 @@ TYPED_PROPERTY(ClassifierWithFeatures, TakesCrispAndGradedFindingsInOneReport) {
   Numbers likelihood(with.pattern.size(), 1.0);
   for (std::size_t i = 0; i < readings.size(); ++i) {
     if (*rc::gen::inRange(0, 2) == 0) {
-      report.emplace_back(readings[i]);
       if (readings[i] == missing) continue;
+      report.emplace_back(Reading{with.features[i], readings[i]});
       for (std::size_t c = 0; c < likelihood.size(); ++c) likelihood[c] *= with.rows[i][c][readings[i]];
     } else {
       const Numbers graded = moderate_numbers(with.features[i].size());
@@ -104,6 +104,7 @@ TYPED_PROPERTY(ClassifierWithFeatures, TakesCrispAndGradedFindingsInOneReport) {
         likelihood[c] *= static_cast<double>(plain::evidence(by_kind<TypeParam>, with.rows[i][c], graded));
     }
   }
+  if (*rc::gen::inRange(0, 2) == 0) std::ranges::reverse(report);
   classifier.observe(belief, report);
   require_near(belief.distribution().values(), plain::update(by_kind<TypeParam>, with.prior, likelihood));
   Numbers found(with.pattern.size());
@@ -119,8 +120,8 @@ TYPED_PROPERTY(ClassifierWithFeatures, InABatchIsTheSequenceForgettingIncluded) 
   const double factor = any([](rc::Random& random) { return static_cast<double>(1 + random.next() % 8) / 8.0; });
   std::vector<Readings> reports;
   for (int k = 0; k < 7; ++k) reports.push_back(with.any_readings());
-  for (const Readings& readings : reports) classifier.observe(one_by_one, readings, factor);
-  classifier.observe_all(at_once, reports, factor);
+  for (const Readings& readings : reports) classifier.observe(one_by_one, InOrder{readings}, factor);
+  classifier.observe_all(at_once, std::vector<InOrder>(reports.begin(), reports.end()), factor);
   require_near(at_once.logs(), one_by_one.logs());
 }
 
@@ -128,14 +129,15 @@ TYPED_PROPERTY(ClassifierWithFeatures, InABatchIsTheSequenceForgettingIncluded) 
 TYPED_TEST(ClassifierWithFeatures, AsManyReportsForOnePatternAsForTheOtherEndInATie) {
   const Variable<TypeParam> pattern{"pattern", 2}, feature{"feature", 2};
   const Rows rows = by_kind<TypeParam> == By::sum ? Rows{{0.9, 0.1}, {0.1, 0.9}} : Rows{{1.0, 0.1}, {0.1, 1.0}};
+  const Readings zero{0}, one{1};
   for (const std::size_t n : {1U, 17U, 1000U, 50000U}) {
     const Classifier classifier{uninformative(pattern), Relation{feature, pattern, rows}};
     Belief belief{classifier.prior()}, at_once = belief;
-    classifier.observe_all(belief, std::vector<Readings>(n, Readings{0}));
-    classifier.observe_all(belief, std::vector<Readings>(n, Readings{1}));
+    classifier.observe_all(belief, std::vector(n, InOrder{zero}));
+    classifier.observe_all(belief, std::vector(n, InOrder{one}));
     EXPECT_NEAR(belief.log(0), belief.log(1), tie_tolerance) << n;
-    std::vector<Readings> mixed(n, Readings{0});
-    mixed.resize(2 * n, Readings{1});
+    std::vector mixed(n, InOrder{zero});
+    mixed.resize(2 * n, InOrder{one});
     classifier.observe_all(at_once, mixed);
     EXPECT_NEAR(at_once.log(0), at_once.log(1), tie_tolerance) << n;
   }
@@ -146,11 +148,11 @@ TEST(Classifier, TakesAListOfReadings) {
   const Relation relation{feature, pattern, {{0.75, 0.25}, {0.25, 0.75}}};
   const Classifier one{uninformative(pattern), relation};
   Belief belief{one.prior()};
-  one.observe(belief, {1});
+  one.observe(belief, InOrder{1});
   EXPECT_CLOSE(belief.distribution().values(), (Numbers{0.25, 0.75}), 1e-15);
   const Classifier two{uninformative(pattern), std::vector{relation, relation}};
-  EXPECT_CLOSE(two.posterior({1, missing}).distribution().values(), (Numbers{0.25, 0.75}), 1e-15);
-  EXPECT_THROW(two.posterior({1}), std::invalid_argument);
+  EXPECT_CLOSE(two.posterior(InOrder{1, missing}).distribution().values(), (Numbers{0.25, 0.75}), 1e-15);
+  EXPECT_THROW(two.posterior(InOrder{1}), std::invalid_argument);
 }
 
 TEST(Classifier, TakesAListOfFindings) {
@@ -163,8 +165,8 @@ TEST(Classifier, TakesAListOfFindings) {
   one.observe(listed, {graded});
   EXPECT_EQ(listed.distribution(), plain.distribution());
   const Classifier two{uninformative(pattern), std::vector{relation, relation}};
-  two.observe(both, {graded, std::size_t{1}});
-  one.observe(plain, {1});
+  two.observe(both, {graded, Reading{feature, 1}});
+  one.observe(plain, Reading{feature, 1});
   EXPECT_CLOSE(both.distribution().values(), plain.distribution().values(), 1e-15);
 }
 
@@ -178,7 +180,7 @@ TYPED_TEST(ClassifierWithFeatures, APatternThatNoFeatureReachesIsImpossible) {
   ASSERT_EQ(inverse.unreachable, std::vector<std::size_t>{2});
   const Classifier<Kind, Kind> classifier{uninformative(pattern), inverse};
   EXPECT_EQ(classifier.prior()[2], 0.0);
-  EXPECT_EQ(classifier.posterior({1})[2], 0.0);
+  EXPECT_EQ(classifier.posterior(Reading{feature, 1})[2], 0.0);
 
   const Classifier<Kind, Kind> predicted{uninformative(pattern), inverse.relation};
   Belief belief{predicted.prior()};
@@ -246,7 +248,7 @@ TYPED_TEST(ClassifierWithFeatures, SurvivesAMillionReports) {
   std::vector<long double> sums(3, 0.0L);
   for (int k = 0; k < 1000000; ++k) {
     const std::size_t h = generator() % 3, l = generator() % 4;  // the last of each: missing
-    classifier.observe(belief, Readings{h == 2 ? missing : h, l == 3 ? missing : l});
+    classifier.observe(belief, InOrder{h == 2 ? missing : h, l == 3 ? missing : l});
     for (std::size_t c = 0; c < 3; ++c)
       sums[c] += (h == 2 ? 0.0L : std::log(static_cast<long double>(of_hair[c][h]))) +
                  (l == 3 ? 0.0L : std::log(static_cast<long double>(of_legs[c][l])));
@@ -261,12 +263,12 @@ TYPED_TEST(ClassifierWithFeatures, IsLeftAsItWasByABatchThatExcludesEveryPattern
   const Variable<TypeParam> pattern{"pattern", 2}, feature{"feature", 2};
   Classifier classifier{uninformative(pattern), Relation{feature, pattern, Rows{{1.0, 0.0}, {0.0, 1.0}}}};
   Belief belief{classifier.prior()};
-  EXPECT_REFUSED(std::domain_error, ("'pattern'"),
-                 classifier.observe_all(belief, std::vector<Readings>{{0}, {1}}, 0.5));
+  const Report<TypeParam> first{Reading{feature, 0}}, second{Reading{feature, 1}};
+  EXPECT_REFUSED(std::domain_error, ("'pattern'"), classifier.observe_all(belief, std::vector{first, second}, 0.5));
   EXPECT_CLOSE(belief.distribution().values(), uninformative(pattern).values(), 0.0);
-  classifier.observe(belief, Readings{1}, 0.5);
+  classifier.observe(belief, second, 0.5);
   // Forgetting does not bring back what is excluded.
-  EXPECT_THROW(classifier.observe(belief, Readings{0}, 0.5), std::domain_error);
+  EXPECT_THROW(classifier.observe(belief, first, 0.5), std::domain_error);
   EXPECT_EQ(belief[1], 1.0);
 }
 
@@ -277,7 +279,8 @@ TYPED_TEST(ClassifierWithFeatures, ForgetsALongBatchWithoutLosingWhatIsExcluded)
   const Numbers prior = by_kind<TypeParam> == By::sum ? Numbers{0.5, 0.0, 0.5} : Numbers{1.0, 0.0, 1.0};
   Classifier classifier{Distribution{pattern, prior}, Relation{feature, pattern, rows}};
   Belief belief{classifier.prior()};
-  classifier.observe_all(belief, std::vector<Readings>(2000, Readings{0}), 0.25);  // 0.25²⁰⁰⁰ is no double
+  const Readings zero{0};
+  classifier.observe_all(belief, std::vector(2000, InOrder{zero}), 0.25);  // 0.25²⁰⁰⁰ is no double
   EXPECT_EQ(belief.log(1), log_zero);
   // What is left of the reports is a geometric series: Σ 4⁻ᵏ = 4/3.
   const double ratio = std::pow(rows[2][0] / rows[0][0], 4.0 / 3.0);
@@ -296,12 +299,14 @@ TEST(Classifier, RefusesWhatDoesNotFit) {
                  Classifier(uninformative(animal), std::vector{legs_given_animal, milk_given_plant}));
   const Classifier classifier{uninformative(animal), std::vector{legs_given_animal, milk_given_animal}};
   Belief belief{classifier.prior()};
-  EXPECT_INVALID(("'animal'", "2", "1 findings"), classifier.observe(belief, Readings{0}));
-  EXPECT_INVALID(("'milk'", "2"), classifier.observe(belief, Readings{0, 2}));
-  EXPECT_INVALID(("'animal'", "2 features"), classifier.observe(belief, Likelihood{legs}));
-  EXPECT_INVALID(("'milk'", "'legs'"), classifier.observe(belief, Report<Random>{Likelihood{milk}, missing}));
+  EXPECT_INVALID(("'animal'", "2", "1 indices"), classifier.observe(belief, InOrder{0}));
+  EXPECT_INVALID(("'milk'", "2"), classifier.observe(belief, InOrder{0, 2}));
+  EXPECT_INVALID(("'milk'", "2"), (Reading{milk, 2}));
+  EXPECT_INVALID(("'animal'", "no feature 'plant'"), classifier.observe(belief, Likelihood{other}));
+  EXPECT_INVALID(("'animal'", "no feature 'legs' with 3"),
+                 classifier.observe(belief, Reading{RandomVariable{"legs", 3}, 2}));
   for (const double factor : {0.0, -0.5, 1.5, not_a_number})
-    EXPECT_INVALID(("(0, 1]", std::to_string(factor)), classifier.observe(belief, {0, 0}, factor));
+    EXPECT_INVALID(("(0, 1]", std::to_string(factor)), classifier.observe(belief, InOrder{0, 0}, factor));
   EXPECT_CLOSE(belief.distribution().values(), (Numbers{0.5, 0.5}), 0.0);
 }
 

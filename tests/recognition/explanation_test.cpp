@@ -3,8 +3,6 @@
 
 namespace explanation_test {
 
-using Readings = std::vector<std::size_t>;
-
 const FuzzyVariable platform{"platform", {"T1", "T2"}}, emitter{"emitter", {"e1", "e2"}};
 const RandomVariable reading{"reading", {"z1", "z2"}};
 const Relation emitter_given_platform{emitter, platform, {{1.0, 0.5}, {0.25, 1.0}}};
@@ -13,7 +11,7 @@ const Relation reading_given_emitter{reading, emitter, {{0.5, 0.5}, {0.125, 0.87
 TEST(Explain, NamesTheWinningValueOfAMaximumAndItsEquation) {
   const Classifier classifier{uninformative(platform),
                               std::vector{FeatureModel{emitter_given_platform, reading_given_emitter}}};
-  const auto why = explain(classifier, Readings{1}, 0, 1);
+  const auto why = explain(classifier, {Reading{reading, "z2"}}, 0, 1);
   EXPECT_EQ(why.pattern, 0U);
   EXPECT_EQ(why.rival, 1U);
   EXPECT_EQ(why.log_prior_ratio, 0.0);
@@ -47,8 +45,10 @@ TEST(Explain, TellsTheShareOfTheGreatestTermOfASum) {
 }
 
 TEST(Explain, ReadsACrispFeatureOffItsTable) {
-  const Classifier classifier{uninformative(platform), std::vector{emitter_given_platform, emitter_given_platform}};
-  const auto why = explain(classifier, Readings{missing, 1}, 0, 1);
+  const FuzzyVariable size{"size", 2};
+  const Relation size_given_platform{size, platform, {{1.0, 0.5}, {0.25, 1.0}}};
+  const Classifier classifier{uninformative(platform), std::vector{size_given_platform, emitter_given_platform}};
+  const auto why = explain(classifier, classifier.report(InOrder{missing, 1}), 0, 1);
   ASSERT_EQ(why.contributions.size(), 1U);  // what is missing says nothing
   EXPECT_EQ(why.contributions.front().feature, 1U);
   EXPECT_EQ(why.contributions.front().equation, "π(emitter = e2|platform = T1) = 0.5");
@@ -58,11 +58,11 @@ TEST(Explain, ReadsACrispFeatureOffItsTable) {
 TEST(Explain, TellsTheReportAndTheFeatureOfEachFinding) {
   const Classifier classifier{uninformative(platform), std::vector{emitter_given_platform, emitter_given_platform}};
   const std::vector<Report<Fuzzy>> reports{
-      {missing, std::size_t{1}}, {missing, missing}, {std::size_t{0}, std::size_t{1}}};
+      {Reading{emitter, 1}}, {}, {Reading{emitter, 0}, Reading{emitter, 1}, Reading{emitter, 0}}};
   std::vector<std::pair<std::size_t, std::size_t>> found;
   for (const Contribution& each : explain(classifier, std::span(reports), 0, 1).contributions)
     found.emplace_back(each.report, each.feature);
-  EXPECT_EQ(found, (std::vector<std::pair<std::size_t, std::size_t>>{{0, 1}, {2, 0}, {2, 1}}));
+  EXPECT_EQ(found, (std::vector<std::pair<std::size_t, std::size_t>>{{0, 0}, {2, 0}, {2, 1}, {2, 0}}));
 }
 
 PROPERTY(Explain, NamesTheWitnessOfTheComposition) {
@@ -89,7 +89,7 @@ PROPERTY(Explain, NamesTheWitnessOfTheComposition) {
   const FeatureModel model{relation, sensor};
   for (std::size_t z = 0; z < sensed.size(); ++z)
     for (std::size_t c = 0; c < pattern.size(); ++c) {
-      const Contribution found = contribution(model, Finding<Fuzzy>{z}, c, c);
+      const Contribution found = contribution(model, Finding<Fuzzy>{Reading{sensed, z}}, c, c);
       RC_ASSERT(found.value == witnessed.winner(c, z));
       require_near(found.share, 1.0);
       require_near(std::exp(found.log_likelihood), witnessed.relation()(c, z));
@@ -107,9 +107,8 @@ TYPED_PROPERTY(ExplainKind, AddsUpToTheRatioOfTheBeliefsForgettingIncluded) {
   Belief belief{classifier.prior()};
   std::vector<Report<TypeParam>> reports;
   for (int k = 0; k < 4; ++k) {
-    Report<TypeParam> report{*rc::gen::inRange<std::size_t>(0, first.size()),
-                             Likelihood{second, laws::any_unit_numbers(second.size())}};
-    if (*rc::gen::inRange(0, 3) == 0) report[0] = missing;
+    Report<TypeParam> report{Likelihood{second, laws::any_unit_numbers(second.size())}};
+    if (*rc::gen::inRange(0, 3) != 0) report.push_back(Reading{first, *rc::gen::inRange<std::size_t>(0, first.size())});
     try {
       classifier.observe(belief, report, forgetting);
     } catch (const std::domain_error&) {
@@ -128,17 +127,18 @@ TYPED_PROPERTY(ExplainKind, AddsUpToTheRatioOfTheBeliefsForgettingIncluded) {
 TEST(Explain, OfAnExcludedRivalIsInfinite) {
   const Relation certain{emitter, platform, {{1.0, 0.0}, {0.0, 1.0}}};
   const Classifier classifier{uninformative(platform), certain};
-  EXPECT_EQ(explain(classifier, Readings{0}, 0, 1).log_ratio(), infinity);
-  EXPECT_EQ(explain(classifier, Readings{0}, 1, 0).log_ratio(), log_zero);
-  EXPECT_EQ(explain(classifier, Readings{0}, 1, 1).log_ratio(), 0.0);
-  EXPECT_EQ(explain(classifier, Readings{0}, 1, 0).contributions.front().share, 0.0);
+  EXPECT_EQ(explain(classifier, {Reading{emitter, 0}}, 0, 1).log_ratio(), infinity);
+  EXPECT_EQ(explain(classifier, {Reading{emitter, 0}}, 1, 0).log_ratio(), log_zero);
+  EXPECT_EQ(explain(classifier, {Reading{emitter, 0}}, 1, 1).log_ratio(), 0.0);
+  EXPECT_EQ(explain(classifier, {Reading{emitter, 0}}, 1, 0).contributions.front().share, 0.0);
 }
 
 TEST(Explain, RefusesWhatTheClassifierRefuses) {
   const Classifier classifier{uninformative(platform), emitter_given_platform};
-  EXPECT_INVALID(("1 features"), explain(classifier, Readings{0, 1}, 0, 1));
-  EXPECT_INVALID(("'emitter'", "2"), explain(classifier, Readings{2}, 0, 1));
-  EXPECT_INVALID(("'platform'", "2"), explain(classifier, Readings{0}, 0, 2));
+  EXPECT_INVALID(("1 features"), classifier.report(InOrder{0, 1}));
+  EXPECT_INVALID(("no feature 'reading'"), explain(classifier, {Reading{reading, 0}}, 0, 1));
+  EXPECT_INVALID(("'emitter'", "2"), classifier.report(InOrder{2}));
+  EXPECT_INVALID(("'platform'", "2"), explain(classifier, {Reading{emitter, 0}}, 0, 2));
 }
 
 }  // namespace explanation_test

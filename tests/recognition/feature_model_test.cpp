@@ -39,7 +39,7 @@ TYPED_PROPERTY(FeatureModelOf, ReadByASensorIsThePlainRecursion) {
           static_cast<double>(plain::evidence(by_kind<typename K::Feature>, row, plain::column(sensor, z))));
     constexpr plain::By by = by_kind<typename K::Pattern>;
     if (plain::evidence(by, numbers_of(prior.values()), likelihood) <= 1e-200L) continue;  // few digits left
-    require_near(classifier.posterior({z}).distribution().values(),
+    require_near(classifier.posterior(InOrder{z}).distribution().values(),
                  plain::update(by, numbers_of(prior.values()), likelihood));
     // A sensor's crisp reading is the graded report of its column.
     Belief belief{prior};

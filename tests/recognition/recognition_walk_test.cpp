@@ -64,7 +64,7 @@ TEST(RecognitionWalk, SigmaMax) {
 
   const Classifier classifier{uninformative(platform),
                               std::vector{FeatureModel{emitter_given_platform, reading_given_emitter}}};
-  const Belief by_index = classifier.posterior({reading.index_of("e2")});
+  const Belief by_index = classifier.posterior({Reading{reading, "e2"}});
   EXPECT_CLOSE(by_index.distribution().values(), belief.distribution().values(), 1e-15);
 
   const Induced induced = compose(reading_given_emitter, emitter_given_platform);  // (17)
@@ -73,7 +73,7 @@ TEST(RecognitionWalk, SigmaMax) {
 
   const Relation scaled = to_possibility(reading_given_emitter, RatioScale{});
   const Classifier max{uninformative(platform), std::vector{FeatureModel{emitter_given_platform, scaled}}};
-  EXPECT_CLOSE(max.posterior({reading.index_of("e2")}).distribution().values(), belief.distribution().values(), 1e-15);
+  EXPECT_CLOSE(max.posterior({Reading{reading, "e2"}}).distribution().values(), belief.distribution().values(), 1e-15);
 }
 
 TEST(RecognitionWalk, TheOtherMixture) {
@@ -83,12 +83,12 @@ TEST(RecognitionWalk, TheOtherMixture) {
   const Relation look_given_manoeuvre{look, manoeuvre, {{0.2, 1.0}, {1.0, 0.8}, {1.0, 0.1}}};
 
   const Classifier by_look{uninformative(type), std::vector{FeatureModel{manoeuvre_given_type, look_given_manoeuvre}}};
-  const Belief looked = by_look.posterior({look.index_of("small")});  // π⁺ = 0.2, 0.68, (0.4 + 3 + 6)/11
+  const Belief looked = by_look.posterior({Reading{look, "small"}});  // π⁺ = 0.2, 0.68, (0.4 + 3 + 6)/11
   const double sum = 0.2 + 0.68 + 9.4 / 11;
   EXPECT_CLOSE(looked.distribution().values(), (Numbers{0.2 / sum, 0.68 / sum, 9.4 / 11 / sum}), 1e-14);
 
   const Classifier direct{uninformative(fuzzy_type), with_fuzzy_condition(manoeuvre_given_type)};
-  EXPECT_CLOSE(direct.posterior({manoeuvre.index_of("medium")}).distribution().values(),
+  EXPECT_CLOSE(direct.posterior({Reading{manoeuvre, "medium"}}).distribution().values(),
                (Numbers{0.0, 1.0, (3.0 / 11) / 0.6}), 1e-15);
 
   const Distribution prior = to_possibility(uninformative(type), RatioScale{});
@@ -113,10 +113,10 @@ const Relation skin_given_animal{skin, animal, {{1.0, 0.0, 0.2}, {0.1, 1.0, 0.2}
 
 TEST(RecognitionWalk, SeveralFeatures) {
   const Classifier classifier{uninformative(animal), std::vector{legs_given_animal, skin_given_animal}};
-  const std::vector<std::size_t> four_legs{legs.index_of("4"), missing};
+  const Report<Fuzzy> four_legs{Reading{legs, "4"}};
   Belief belief = classifier.posterior(four_legs);
   EXPECT_CLOSE(belief.distribution().values(), (Numbers{1, 0, 1}), 0.0);
-  const Report<Fuzzy> graded{missing, Likelihood{skin, {0.3, 0.1, 1.0}}};
+  const Report<Fuzzy> graded{Likelihood{skin, {0.3, 0.1, 1.0}}};
   classifier.observe(belief, graded);
   EXPECT_CLOSE(belief.distribution().values(), (Numbers{0.3, 0, 1}), 1e-15);
 
@@ -128,7 +128,7 @@ TEST(RecognitionWalk, SeveralFeatures) {
   const auto order = best_patterns(belief, 2);
   EXPECT_EQ(order, (std::vector<std::size_t>{2, 0}));
 
-  const std::vector reports{as_report<Fuzzy>(four_legs), graded};
+  const std::vector reports{four_legs, graded};
   const auto why = explain(classifier, std::span(reports), order[0], order[1]);
   EXPECT_CLOSE(why.log_ratio(), std::log(1.0 / 0.3), 1e-14);
   ASSERT_EQ(why.contributions.size(), 2U);
@@ -167,7 +167,8 @@ TEST(RecognitionWalk, Learning) {
   Classifier max{uninformative(as_fuzzy(kind)), learned_relations(counts, 1.0, DuboisPrade{})};
   EXPECT_CLOSE(learned_relation(counts, 0, 1.0).row(0), (Numbers{0.25, 0.75}), 0.0);
   EXPECT_CLOSE(max.features()[0].relation().row(0), (Numbers{0.25, 1.0}), 0.0);
-  EXPECT_CLOSE(sigma.posterior({1, 1})["cat"], (2.0 / 3 * 0.75 * 2 / 3) / (2.0 / 3 * 0.75 * 2 / 3 + 1.0 / 27), 1e-14);
+  EXPECT_CLOSE(sigma.posterior(InOrder{1, 1})["cat"], (2.0 / 3 * 0.75 * 2 / 3) / (2.0 / 3 * 0.75 * 2 / 3 + 1.0 / 27),
+               1e-14);
 
   const std::vector training{3.1, 4.7, 2.2, 5.0, 3.8, 2.9};
   const Discretization bins = equal_frequency(training, 3);
@@ -199,8 +200,8 @@ TEST(RecognitionWalk, Evaluation) {
     Classifier by_max{uninformative(as_fuzzy(kind)), learned_relations(counts, 1.0, RatioScale{})};
     for (std::size_t i = 0; i < rows.size(); ++i) {
       if (fold_of[i] != fold) continue;
-      const double right = sigma.add(labels[i], by_sum.posterior(rows[i]));
-      paired.add(right - max.add(labels[i], by_max.posterior(rows[i])));
+      const double right = sigma.add(labels[i], by_sum.posterior(InOrder{rows[i]}));
+      paired.add(right - max.add(labels[i], by_max.posterior(InOrder{rows[i]})));
     }
   }
   const double accuracy = sigma.confusion().accuracy();

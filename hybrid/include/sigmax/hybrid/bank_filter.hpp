@@ -61,15 +61,24 @@ class BankFilter : public Filter {
   }
 
   /// The same with what says by which sensor it was measured.
-  template <SensorOfBank<Models> Sensor>
+  template <class Sensor>
   void step(double dt, const MeasuredBy<Sensor>& measured, const Gate& gate = {}) {
-    step(dt, measured.z, measured.sensor, gate);
+    if constexpr (SensorOfBank<Sensor, Models>)
+      step(dt, measured.z, measured.sensor, gate);
+    else
+      static_assert(SensorOfBank<Sensor, Models>, "this sensor does not measure the states of the bank: other axes?");
   }
 
   /// The same with a measurement of the position, which leads the state of every model.
   void step(double dt, const Measurement& z, const Gate& gate = {}) requires(axes != 0) {
     const Seen seen = seen_at(z);
     Filter::step(dt, &seen, gate);
+  }
+  template <int N, int MaxN>
+    requires(axes != Eigen::Dynamic && axes != N)
+  void step(double, const Gaussian<N, MaxN>&, const Gate& = {}) {
+    static_assert(axes == N,
+                  "a Gaussian is a position along the bank's axes; others are sensor.measurement(seen, sigma)");
   }
 
   /// One cycle without a measurement, `step(dt)`: the models predict and the mode moves on.

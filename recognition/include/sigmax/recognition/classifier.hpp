@@ -7,6 +7,7 @@
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -76,7 +77,7 @@ class PairwiseSum {
 ///     most_likely(belief);
 ///
 ///     const Classifier animals{prior, std::vector{legs_given_animal, milk_given_animal}};
-///     animals.posterior({2, missing});                          // of one crisp report on every feature
+///     animals.posterior({Reading{legs, "4"}});                                 // of one report; milk is missing
 ///
 /// A classifier never changes: any number of beliefs, on any thread, may share one.
 /// The kind of the pattern is that of the prior, and chooses the ⊕ that normalises; the kind of the features chooses
@@ -106,22 +107,20 @@ class Classifier {
   Classifier(const Distribution<Pattern>& prior, const Inverse<Feature, Pattern>& inverse)
       : Classifier(reached(prior, inverse.unreachable), inverse.relation) {}
 
-  /// Takes one report of crisp readings, an index for each feature in order or `missing`: (42) and (41), or (45) and
-  /// (44). Before it, the logarithms of the belief are multiplied by `forgetting` in (0, 1], so that old reports fade
-  /// as λⁿ, for patterns that change; an excluded pattern stays excluded.
+  /// Takes one report, (42) and (41), or (45) and (44): a list of findings, one finding, or a row of data `InOrder`.
+  /// Before it, the logarithms of the belief are multiplied by `forgetting` in (0, 1], so that old reports fade as λⁿ,
+  /// for patterns that change; an excluded pattern stays excluded.
   ///
-  /// Throws std::invalid_argument if there are not as many readings as features, a reading does not exist, the belief
-  /// is of another variable or the factor is out of range, and std::domain_error if the report excludes every pattern
-  /// that was left; the belief is then unchanged.
-  ///
-  /// The report may be graded as a whole, findings beside readings, or a likelihood of the only feature.
+  /// Throws std::invalid_argument if a finding is of no feature, a row has not an index for each feature or one that
+  /// does not exist, the belief is of another variable or the factor is out of range. Throws std::domain_error if the
+  /// report excludes every pattern that was left; the belief is then unchanged.
   template <class SomeReport>
   void observe(Belief<Pattern>& belief, const SomeReport& report, double forgetting = 1.0) const {
+    static_assert(std::is_same_v<SomeReport, InOrder> || std::is_convertible_v<SomeReport, Finding<Feature>> ||
+                      std::is_convertible_v<SomeReport, Report<Feature>>,
+                  "a report is Reading{legs, \"4\"}, a Likelihood or a list of them; a row of indices is InOrder{row}");
     prove_factor(forgetting);
     update_faded(belief, likelihood(report), forgetting);
-  }
-  void observe(Belief<Pattern>& belief, std::initializer_list<std::size_t> readings, double forgetting = 1.0) const {
-    observe(belief, std::span<const std::size_t>(readings.begin(), readings.size()), forgetting);
   }
   void observe(Belief<Pattern>& belief, std::initializer_list<Finding<Feature>> report, double forgetting = 1.0) const {
     observe(belief, Report<Feature>(report), forgetting);
@@ -130,7 +129,7 @@ class Classifier {
   /// Takes several reports at once, with a single ⊕ at the end: what observing them one by one gives, to rounding.
   /// Throws as `observe` does, and the belief is then as before the first of them.
   ///
-  ///     classifier.observe_all(belief, std::vector<std::vector<std::size_t>>{{2, missing}, {0, 1}});
+  ///     classifier.observe_all(belief, std::vector{InOrder{rows[0]}, InOrder{rows[1]}});
   template <class Reports>
   void observe_all(Belief<Pattern>& belief, const Reports& reports, double forgetting = 1.0) const {
     Table logs(1, prior_.size());
@@ -167,20 +166,51 @@ class Classifier {
   }
 
   /// What is believed after one report alone. Throws as `observe` does.
-  Belief<Pattern> posterior(std::span<const std::size_t> readings) const {
+  template <class SomeReport>
+  Belief<Pattern> posterior(const SomeReport& report) const {
     Belief<Pattern> belief = initial_;
-    observe(belief, readings);
+    observe(belief, report);
     return belief;
   }
-  Belief<Pattern> posterior(std::initializer_list<std::size_t> readings) const {
-    return posterior(std::span<const std::size_t>(readings.begin(), readings.size()));
+  Belief<Pattern> posterior(std::initializer_list<Finding<Feature>> report) const {
+    return posterior(Report<Feature>(report));
   }
 
   /// How well each pattern explains one report, L(z|c), whatever was believed: (42), (45), (17), (18).
-  Likelihood<Pattern> likelihood(std::span<const std::size_t> readings) const { return likelihood_of(readings); }
+  Likelihood<Pattern> likelihood(InOrder row) const { return likelihood_of(row); }
   Likelihood<Pattern> likelihood(const Report<Feature>& report) const { return likelihood_of(report); }
-  Likelihood<Pattern> likelihood(const Likelihood<Feature>& report) const {
-    return compose(report, only_feature().relation());
+  Likelihood<Pattern> likelihood(const Finding<Feature>& finding) const {
+    return likelihood_of(Report<Feature>{finding});
+  }
+
+  /// A row of data as a report. Throws std::invalid_argument as `observe` does.
+  Report<Feature> report(InOrder row) const {
+    prove_size(row);
+    Report<Feature> result;
+    for (std::size_t i = 0; i < features_.size(); ++i)
+      if (row.indices[i] != missing) result.emplace_back(Reading{features_[i].readings(), row.indices[i]});
+    return result;
+  }
+
+  /// The place of the feature of each finding. Of features that are the same variable each has its turn. Throws
+  /// std::invalid_argument if a finding is of none.
+  std::vector<std::size_t> places(const Report<Feature>& report) const {
+    std::vector<std::size_t> result;
+    for (const auto& finding : report) {
+      const auto* const reading = std::get_if<Reading>(&finding);
+      const Outcomes& of = reading ? reading->variable : std::get<Likelihood<Feature>>(finding).variable();
+      const std::size_t n = features_.size(), first = result.empty() ? 0 : result.back() + 1;
+      std::size_t k = 0;
+      const auto matches = [&](const auto& feature) {
+        return of == (reading ? feature.readings() : static_cast<const Outcomes&>(feature.feature()));
+      };
+      while (k < n && !matches(features_[(first + k) % n])) ++k;
+      if (k == n)
+        throw std::invalid_argument("the classifier of '" + prior_.variable().name() + "' has no feature '" +
+                                    of.name() + "' with " + std::to_string(of.size()) + " outcomes");
+      result.push_back((first + k) % n);
+    }
+    return result;
   }
 
   const Distribution<Pattern>& prior() const& { return prior_; }
@@ -198,18 +228,11 @@ class Classifier {
 
   static double faded(double factor, double log) { return log == log_zero ? log_zero : factor * log; }
 
-  const FeatureModel<Pattern, Feature>& only_feature() const {
-    if (features_.size() != 1)
+  void prove_size(InOrder row) const {
+    if (row.indices.size() != features_.size())
       throw std::invalid_argument("the classifier of '" + prior_.variable().name() + "' has " +
-                                  std::to_string(features_.size()) + " features; a report needs a finding for each");
-    return features_.front();
-  }
-
-  void prove_size(std::size_t findings) const {
-    if (findings != features_.size())
-      throw std::invalid_argument("the classifier of '" + prior_.variable().name() + "' has " +
-                                  std::to_string(features_.size()) + " features, but the report has " +
-                                  std::to_string(findings) + " findings");
+                                  std::to_string(features_.size()) + " features, but the row has " +
+                                  std::to_string(row.indices.size()) + " indices");
   }
 
   /// logs += each of N columns, in one pass: this is what a crisp report costs.
@@ -223,8 +246,9 @@ class Classifier {
     }
   }
 
-  void add_log_likelihood(std::span<const std::size_t> readings, std::span<double> logs) const {
-    prove_size(readings.size());
+  void add_log_likelihood(InOrder row, std::span<double> logs) const {
+    prove_size(row);
+    const auto readings = row.indices;
     std::array<const double*, 4> columns{};
     std::size_t n = 0;
     for (std::size_t i = 0; i < readings.size(); ++i) {
@@ -237,12 +261,13 @@ class Classifier {
     for (std::size_t k = 0; k < n; ++k) add<1>({columns[k]}, logs);
   }
   void add_log_likelihood(const Report<Feature>& report, std::span<double> logs) const {
-    prove_size(report.size());
+    const auto of = places(report);
     for (std::size_t i = 0; i < report.size(); ++i) {
-      if (const auto* const reading = std::get_if<std::size_t>(&report[i])) {
-        if (*reading != missing) add<1>({features_[i].log_likelihoods(*reading).data()}, logs);
+      const auto& feature = features_[of[i]];
+      if (const auto* const reading = std::get_if<Reading>(&report[i])) {
+        add<1>({feature.log_likelihoods(reading->index).data()}, logs);
       } else {
-        const auto graded = compose(std::get<Likelihood<Feature>>(report[i]), features_[i].relation());
+        const auto graded = compose(std::get<Likelihood<Feature>>(report[i]), feature.relation());
         add<1>({graded.logs().data()}, logs);
       }
     }

@@ -83,7 +83,7 @@ std::string equation_of(const FeatureModel<Pattern, Feature>& feature, const std
 
 }  // namespace detail
 
-/// What one feature's finding says of a pattern, and against its rival. The finding is not `missing`.
+/// What one feature's finding says of a pattern, and against its rival.
 ///
 /// The value is the one for which L(z|f) ⊗ L(f|c) is greatest, of those within `tie_tolerance` the first. Max
 /// inference, (45), (17), selects it, and it alone counts; sigma inference, (42), (18), adds all, and `share` tells how
@@ -91,8 +91,9 @@ std::string equation_of(const FeatureModel<Pattern, Feature>& feature, const std
 template <Uncertainty Pattern, Uncertainty Feature>
 Contribution contribution(const FeatureModel<Pattern, Feature>& feature, const Finding<Feature>& finding,
                           std::size_t pattern, std::size_t rival) {
-  const std::size_t* const reading = std::get_if<std::size_t>(&finding);
-  const Likelihood<Feature> evidence = reading ? feature.evidence(*reading) : std::get<Likelihood<Feature>>(finding);
+  const auto* const reading = std::get_if<Reading>(&finding);
+  const Likelihood<Feature> evidence =
+      reading ? feature.evidence(reading->index) : std::get<Likelihood<Feature>>(finding);
   const Likelihood<Pattern> likelihood = compose(evidence, feature.relation());
 
   std::vector<double> terms(feature.feature().size());
@@ -100,7 +101,7 @@ Contribution contribution(const FeatureModel<Pattern, Feature>& feature, const F
   const std::size_t value = first_of_tied(terms);
 
   Contribution result{};
-  result.reading = reading ? feature.readings().label(*reading) : "";
+  result.reading = reading ? reading->variable.label(reading->index) : "";
   result.value = value;
   result.share = terms[value] == log_zero ? 0.0 : std::exp(terms[value] - likelihood.log(pattern));
   result.log_likelihood = likelihood.log(pattern);
@@ -133,13 +134,11 @@ PatternExplanation explain(const Classifier<Pattern, Feature>& classifier, std::
   PatternExplanation result{
       pattern, rival, log_prior, rival_log_prior, left(detail::log_ratio_of(log_prior, rival_log_prior), 0), {}};
   for (std::size_t k = 0; k < reports.size(); ++k) {
-    if (reports[k].size() != classifier.features().size()) classifier.likelihood(reports[k]);  // throws
-    for (std::size_t i = 0; i < reports[k].size(); ++i) {
-      const auto* const reading = std::get_if<std::size_t>(&reports[k][i]);
-      if (reading && *reading == missing) continue;
-      Contribution each = contribution(classifier.features()[i], reports[k][i], pattern, rival);
+    const auto places = classifier.places(reports[k]);
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      Contribution each = contribution(classifier.features()[places[i]], reports[k][i], pattern, rival);
       each.report = k;
-      each.feature = i;
+      each.feature = places[i];
       each.log_ratio = left(each.log_ratio, k + 1);
       result.contributions.push_back(std::move(each));
     }
@@ -147,12 +146,11 @@ PatternExplanation explain(const Classifier<Pattern, Feature>& classifier, std::
   return result;
 }
 
-/// The same of a single crisp report.
+/// The same of a single report.
 template <Uncertainty Pattern, Uncertainty Feature>
-PatternExplanation explain(const Classifier<Pattern, Feature>& classifier, std::span<const std::size_t> readings,
+PatternExplanation explain(const Classifier<Pattern, Feature>& classifier, const Report<Feature>& report,
                            std::size_t pattern, std::size_t rival) {
-  const std::vector<Report<Feature>> reports{as_report<Feature>(readings)};
-  return explain(classifier, std::span<const Report<Feature>>(reports), pattern, rival);
+  return explain(classifier, std::span(&report, 1), pattern, rival);
 }
 
 }  // namespace sigmax

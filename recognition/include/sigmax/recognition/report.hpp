@@ -1,7 +1,10 @@
 #pragma once
 
 #include <cstddef>
+#include <initializer_list>
 #include <span>
+#include <string_view>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -9,22 +12,40 @@
 
 namespace sigmax {
 
-/// The index that stands for a feature of which a report, or a row of data, says nothing.
+/// The index that stands for a feature whose cell in a row of data is empty.
 inline constexpr std::size_t missing = static_cast<std::size_t>(-1);
 
-/// What a report says of one feature: the index of the value that was read or `missing`, or, where the sensor only
-/// grades, how well each value of the feature explains what it saw.
-template <Uncertainty Feature>
-using Finding = std::variant<std::size_t, Likelihood<Feature>>;
+/// A crisp reading: the variable that was read, and the index of its value.
+///
+///     Reading{legs, "4"}
+///
+/// Throws std::invalid_argument, naming the variable, if it has no such value.
+struct Reading {
+  Reading(Outcomes of, std::size_t value) : variable(std::move(of)), index(value) { (void)variable.label(index); }
+  Reading(const Outcomes& of, std::string_view label) : Reading(of, of.index_of(label)) {}
 
-/// One report: a finding for every feature of a classifier, in its order.
+  Outcomes variable;
+  std::size_t index;
+};
+
+/// What a report says of one feature: the value that was read, or, where the sensor only grades, how well each value of
+/// the feature explains what it saw. It names its variable.
+template <Uncertainty Feature>
+using Finding = std::variant<Reading, Likelihood<Feature>>;
+
+/// One report: findings in any order. Features that have none are missing.
 template <Uncertainty Feature>
 using Report = std::vector<Finding<Feature>>;
 
-/// A report of which every finding is crisp, as findings.
-template <Uncertainty Feature>
-Report<Feature> as_report(std::span<const std::size_t> readings) {
-  return {readings.begin(), readings.end()};
-}
+/// A view of a row of data: an index for each feature *in the order of the classifier*, or `missing`. Nothing can check
+/// that order.
+///
+///     classifier.posterior(InOrder{2, missing})
+struct InOrder {
+  explicit InOrder(std::span<const std::size_t> row) : indices(row) {}
+  InOrder(std::initializer_list<std::size_t> row) : indices(row.begin(), row.size()) {}
+
+  std::span<const std::size_t> indices;
+};
 
 }  // namespace sigmax
