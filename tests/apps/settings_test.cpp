@@ -219,14 +219,14 @@ TEST(Settings, RefusesKeysThatNobodyAskedFor) {
 }
 
 TEST(Settings, RefusesUnknownKeysOfASubTable) {
-  const Settings settings = from_file("[filter.imm]\nsigma_w = 1\nlfit = \"zero\"\n");
+  const Settings settings = from_file("[filter.imm]\nsigma_w = 1\naugmentatoin = \"zero\"\n");
   const Settings filters = settings.sub("filter");
   EXPECT_EQ(refusal([&] { settings.refuse_unknown(); }), "c.toml:1:9: unknown key 'filter.imm'");
   const Settings imm = settings.overlaid_by(filters.sub("imm"));
   imm.get<double>("sigma_w");
   imm.get<std::string>("augmentation");
   EXPECT_EQ(refusal([&] { settings.refuse_unknown(); }),
-            "c.toml:3:1: unknown key 'filter.imm.lfit'; did you mean 'filter.imm.augmentation'?");
+            "c.toml:3:1: unknown key 'filter.imm.augmentatoin'; did you mean 'filter.imm.augmentation'?");
 }
 
 TEST(Settings, AskingInAnOverlayMakesAKeyKnownBelow) {

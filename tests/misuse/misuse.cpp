@@ -34,7 +34,7 @@ int main() {
 
   const RandomVariable legs{"legs", {"2", "4"}};
   const Classifier classifier{uninformative(mode), Relation{legs, mode, {{0.9, 0.1}, {0.1, 0.9}}}};
-#if CASE == 8  // a report is Reading.legs, "4".
+#if CASE == 8  // a report lists findings, and each names its variable
   classifier.posterior(std::vector<std::size_t>{1});
 #else
   classifier.posterior(Reading{legs, "4"});

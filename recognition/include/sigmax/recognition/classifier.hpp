@@ -118,7 +118,7 @@ class Classifier {
   void observe(Belief<Pattern>& belief, const SomeReport& report, double forgetting = 1.0) const {
     static_assert(std::is_same_v<SomeReport, InOrder> || std::is_convertible_v<SomeReport, Finding<Feature>> ||
                       std::is_convertible_v<SomeReport, Report<Feature>>,
-                  "a report is Reading{legs, \"4\"}, a Likelihood or a list of them; a row of indices is InOrder{row}");
+                  "a report lists findings, and each names its variable; a row of indices is InOrder{row}");
     prove_factor(forgetting);
     update_faded(belief, likelihood(report), forgetting);
   }
