@@ -25,19 +25,16 @@ void RecordingChecks::see(const Row& row, const LocalFrame* frame) {
                 Vector(row.rates.data()), Vector(detection.origin.data())};
   if (row.truth) record.truth = Vector(row.truth->data());
   for (int i = 0; i < axes; ++i)
-    if (const auto own =
-            detection.sensor == AnyDetection::Sensor::components ? component_of(detection, axes + i) : std::nullopt)
+    if (const auto own = detection.sensor == Sensor::components ? component_of(detection, axes + i) : std::nullopt)
       record.velocity[i] = *own;
   record.climb = record.velocity[2];
-  const bool is_seen =
-      detection.sensor == AnyDetection::Sensor::polar || detection.sensor == AnyDetection::Sensor::doppler;
+  const bool is_seen = detection.sensor == Sensor::polar || detection.sensor == Sensor::doppler;
   const auto here = place_of(detection, axes, track.altitude_m);
   if (is_seen && axes_seen(detection, axes) == axes) {
     record.range = detection.z[0];
     record.azimuth = detection.z[1];
     if (axes == 3) record.elevation = detection.z[2];
-    if (detection.sensor == AnyDetection::Sensor::doppler)
-      record.range_rate = detection.z[static_cast<std::size_t>(axes)];
+    if (detection.sensor == Sensor::doppler) record.range_rate = detection.z[static_cast<std::size_t>(axes)];
     record.at = Vector(position_of(detection, axes)->data());
     records_->radars.try_emplace(record.sensor, record.from);
   } else if (recording.geodetic() && here) {

@@ -19,8 +19,7 @@ constexpr std::array factor_names = {"noise", "period", "strength", "length"};
 constexpr std::array factor_options = {"--mismatch", "--period", "--strength", "--length"};
 
 using Numbers = std::vector<double>;
-const std::vector<std::string> augmentation_names = {"zero", "borrowed_variance",
-                                                     "unbiased"};  // of the first ones of StateAugmentation
+const std::vector<std::string> rule_names = {"zero", "borrowed_variance", "unbiased"};  // of StateAugmentation
 
 #ifndef SIGMAX_TUNING
 struct SearchOptions {
@@ -45,7 +44,7 @@ struct SweepOptions {
   Numbers probability = {1e-6, 0.9};  ///< the off-diagonals of P, each row apart
   Numbers possibility = {1e-6, 1.0};  ///< the same of Π
   Numbers sigma_w = {0.1, 100.0};     ///< of each model apart
-  std::vector<std::string> augmentations = augmentation_names;
+  std::vector<std::string> rules = rule_names;
   /// @}
   int tuning_runs = 20;
   int runs = 100;
@@ -109,7 +108,7 @@ Scenario scenario_of(const SweepCondition& condition) {
 /// axes and phases of RMSE over that of the measurement.
 struct Tuned {
   Numbers numbers;  ///< leaving, returning, and sigma_w of both models
-  std::size_t augmentation;
+  std::size_t rule;
   double tuning_score;
   std::size_t tried;  ///< how many settings were
   Statistic score{};
@@ -150,7 +149,7 @@ class SweepWorld {
         " --filters {} --probability {} --possibility {} --sigma-w {} --augmentation {} --tuning-runs {} --runs {} "
         "--seed {}{}",
         list(options.filters), list(options.probability), list(options.possibility), list(options.sigma_w),
-        list(options.augmentations), options.tuning_runs, options.runs, options.seed, options.cross ? " --cross" : "");
+        list(options.rules), options.tuning_runs, options.runs, options.seed, options.cross ? " --cross" : "");
     return {"cells", conditions.size() * filters.size(),
             [this](std::size_t cell) { return work(cell / filters.size(), cell % filters.size()); }, command};
   }
@@ -206,8 +205,7 @@ class SweepWorld {
   const Numbers& range(std::size_t f, std::size_t number) const {
     return number > 1 ? options.sigma_w : filters[f].fuzzy ? options.possibility : options.probability;
   }
-  FilterSettings settings(std::size_t condition, std::size_t f, const Numbers& numbers,
-                          std::size_t augmentation) const {
+  FilterSettings settings(std::size_t condition, std::size_t f, const Numbers& numbers, std::size_t rule) const {
     const double mismatch = conditions[condition].factors[noise];
     const Polar sigma = group(1, conditions[condition].scenario).data;
     FilterSettings own = filters[f];
@@ -216,8 +214,8 @@ class SweepWorld {
     own.transition = {{own.fuzzy ? 1.0 : 1.0 - numbers[0], numbers[0]},
                       {numbers[1], own.fuzzy ? 1.0 : 1.0 - numbers[1]}};
     for (const std::size_t model : {0U, 1U}) own.motions[model][MotionParameter::sigma_w] = numbers[2 + model];
-    own.augmentation = static_cast<StateAugmentation>(
-        std::ranges::find(augmentation_names, options.augmentations[augmentation]) - augmentation_names.begin());
+    own.augmentation =
+        static_cast<StateAugmentation>(std::ranges::find(rule_names, options.rules[rule]) - rule_names.begin());
     return own;
   }
   Tally tally(std::size_t condition, const FilterSettings& filter) const {
@@ -225,7 +223,8 @@ class SweepWorld {
     return Tally({scenario_of(own), group(1, own.scenario), {filter}, options.runs, options.seed, 0});
   }
 
-  // What was tuned, as `add` takes it. All augmentations are sampled alike, and the best one is searched further.
+  // What was tuned, as `add` takes it. All rules of augmentation are sampled alike, and the best one is searched
+  // further.
   Study::Row work(std::size_t condition, std::size_t f) const {
     const auto whole = [&](const Numbers& free) {
       Numbers numbers;
@@ -233,9 +232,9 @@ class SweepWorld {
         numbers.push_back(range(f, i).size() == 1 ? range(f, i).front() : free[next++]);
       return numbers;
     };
-    const auto loss_of = [&](std::size_t augmentation) {
+    const auto loss_of = [&](std::size_t rule) {
       return [=, this](const Numbers& free) {
-        Tally tuning = tally(condition, settings(condition, f, whole(free), augmentation));
+        Tally tuning = tally(condition, settings(condition, f, whole(free), rule));
         try {
           tuning.add(tuning.row(0, static_cast<std::uint64_t>(options.tuning_runs)));
         } catch (const std::exception&) {
@@ -255,28 +254,28 @@ class SweepWorld {
                         .most = all.back(),
                         .step = std::min(0.5, 0.25 * std::log(all.back() / all.front()))});
     Tuned best{{}, 0, infinity, 0};
-    const auto take = [&](std::size_t augmentation, const SearchOptions& how) {
-      const auto loss = loss_of(augmentation);
+    const auto take = [&](std::size_t rule, const SearchOptions& how) {
+      const auto loss = loss_of(rule);
       const Fit found = free.empty() ? Fit{{}, loss({}), 1} : search(free, loss, how);
       best.tried += found.evaluations;
       if (!best.numbers.empty() && found.loss >= best.tuning_score) return;
-      best.augmentation = augmentation;
+      best.rule = rule;
       best.tuning_score = found.loss;
       best.numbers = whole(found.values);
       for (std::size_t i = 0; i < free.size(); ++i) free[i].start = found.values[i];
     };
-    for (std::size_t augmentation = 0; augmentation < options.augmentations.size(); ++augmentation)
-      take(augmentation, {.samples = 16, .starts = 1, .local = 12});
-    if (!free.empty()) take(best.augmentation, {.samples = 0, .starts = 1, .local = 40});
+    for (std::size_t rule = 0; rule < options.rules.size(); ++rule)
+      take(rule, {.samples = 16, .starts = 1, .local = 12});
+    if (!free.empty()) take(best.rule, {.samples = 0, .starts = 1, .local = 40});
 
-    Tally judged = tally(condition, settings(condition, f, best.numbers, best.augmentation));
+    Tally judged = tally(condition, settings(condition, f, best.numbers, best.rule));
     const int batches = std::min(25, options.runs);
     const auto bound = [&](int batch) {
       return static_cast<std::uint64_t>(options.tuning_runs + static_cast<long>(options.runs) * batch / batches);
     };
     for (int batch = 0; batch < batches; ++batch) judged.add(judged.row(bound(batch), bound(batch + 1)));
     Study::Row row = best.numbers;
-    row.insert(row.end(), {static_cast<double>(best.augmentation), best.tuning_score, static_cast<double>(best.tried)});
+    row.insert(row.end(), {static_cast<double>(best.rule), best.tuning_score, static_cast<double>(best.tried)});
     const Numbers score = judged.over_measurement(1).numbers();
     row.insert(row.end(), score.begin(), score.end());
     return row;
@@ -341,7 +340,7 @@ ResultTable filters_table(const SweepWorld& world) {
                    {{.key = "returning", .header = "returning", .digits = 3, .sized = true}, tuned.numbers[1]},
                    {{.key = "sigma_w_dwna", .header = "dwna", .sized = true, .group = "σ_w, m/s²:"}, tuned.numbers[2]},
                    {{.key = "sigma_w_dwpa", .header = "dwpa", .sized = true, .group = "σ_w, m/s²:"}, tuned.numbers[3]},
-                   {of_words("augmentation", "augmentation"), world.options.augmentations[tuned.augmentation]},
+                   {of_words("augmentation", "augmentation"), world.options.rules[tuned.rule]},
                    {{.key = "at_the_limit"}, world.at_the_limit(cell) ? 1 : 0},
                    {{.key = "tuning_score", .header = "tuning", .digits = 3, .group = "score:"}, tuned.tuning_score},
                    {{.key = "score", .header = "judged", .digits = 3, .interval = true, .group = "score:"},
@@ -388,14 +387,14 @@ HeatMap above_imm_map(const SweepWorld& world, HeatMap map, const std::vector<st
                   number_text(100.0 * *map.most, 1));
   map.fill([&](std::size_t row, std::size_t column) {
     const std::size_t c = conditions[row], f = rivals[column].filter[c];
-    const auto& [numbers, augmentation, tuning_score, tried, judged] = world.tuned(c, f);
+    const auto& [numbers, rule, tuning_score, tried, judged] = world.tuned(c, f);
     const Interval above = world.against_imm(c, f), score = judged.interval();
     return HeatMap::Cell{
         above.mean,
         fmt::format("± {} %, score {} ± {}; {}: leaving {}, returning {}, sigma_w {} and {}, augmentation {}{}",
                     number_text(100.0 * above.half_width, 1), number_text(score.mean, 3),
                     number_text(score.half_width, 3), world.filters[f].name, numbers[0], numbers[1], numbers[2],
-                    numbers[3], world.options.augmentations[augmentation],
+                    numbers[3], world.options.rules[rule],
                     world.at_the_limit(c * world.filters.size() + f) ? ", at the limit of the search" : ""),
         sure(above)};
   });
@@ -480,8 +479,7 @@ void add_sweep(CLI::App& program, const std::string& command) {
             "Off-diagonals of P, the two rows apart: one, or the least and the greatest");
   add_range("--possibility", options->possibility, 1e-12, 1.0, "The same of the matrix of possibilities");
   add_range("--sigma-w", options->sigma_w, 1e-6, 1e6, "The same of sigma_w in m/s², the two models apart");
-  add_list(app, "--augmentation", options->augmentations, "What stands for a component that a model lacks")
-      .one_of(augmentation_names);
+  add_list(app, "--augmentation", options->rules, "What stands for a component that a model lacks").one_of(rule_names);
   app.option("--tuning-runs", options->tuning_runs, "Runs by which the best settings are chosen").in(1, 1000000);
   app.option("--runs", options->runs, "Other runs by which they are judged").in(2, 1000000);
   add_seed(app, options->seed);

@@ -7,8 +7,7 @@ namespace sigmax::apps {
 
 std::optional<Position> position_of(const AnyDetection& detection, int axes) {
   if (axes_seen(detection, axes) == 0) return std::nullopt;
-  const bool is_seen =
-      detection.sensor == AnyDetection::Sensor::polar || detection.sensor == AnyDetection::Sensor::doppler;
+  const bool is_seen = detection.sensor == Sensor::polar || detection.sensor == Sensor::doppler;
   const sigmax::Vector<3> from = to_cartesian(
       {detection.z[0], radians(detection.z[1]), radians(axes_seen(detection, axes) == 3 ? detection.z[2] : 0.0)});
   Position at = detection.origin;

@@ -9,6 +9,8 @@
 
 namespace sigmax::apps {
 
+using Sensor = AnyDetection::Sensor;
+
 /// From where azimuths count: counter-clockwise from east (x), clockwise from north (y) or clockwise from ahead (x).
 enum class AzimuthFrom { east, north, ahead };
 
@@ -45,7 +47,7 @@ struct Row {
   std::optional<double> roll_deg{};
   bool predicted = false;  ///< no row, but the time of --predict-to
 
-  bool measured() const { return detection.sensor != AnyDetection::Sensor::none; }
+  bool measured() const { return detection.sensor != Sensor::none; }
 };
 
 /// So many rows, and the line of the first.

@@ -10,8 +10,8 @@ namespace {
 
 /// What is believed of a number of a detection, if it is taken for a measurement.
 std::optional<double> sigma_of(const SensorSettings& accuracy, const AnyDetection& detection, std::size_t i, int axes) {
-  if (detection.sensor == AnyDetection::Sensor::bearing) return accuracy.radar[1];
-  if (detection.sensor == AnyDetection::Sensor::components) {
+  if (detection.sensor == Sensor::bearing) return accuracy.radar[1];
+  if (detection.sensor == Sensor::components) {
     if (detection.places[i] >= axes) return accuracy.velocity_mps;
     return accuracy.position_m[accuracy.position_m.size() == 1 ? 0 : static_cast<std::size_t>(detection.places[i])];
   }
@@ -25,8 +25,7 @@ AnyDetection converted(const AnyDetection& seen, RadarForm form) {
       sigma{std::sqrt(seen.variance(0)), radians(std::sqrt(seen.variance(1)))};
   if (n == 3) measured.elevation = radians(seen.z[2]), sigma.elevation = radians(std::sqrt(seen.variance(2)));
   const Gaussian<3> position = to_cartesian(measured, sigma, static_cast<Conversion>(form));
-  AnyDetection detection{
-      .time = seen.time, .tag = seen.tag, .sensor = AnyDetection::Sensor::position, .size = seen.size};
+  AnyDetection detection{.time = seen.time, .tag = seen.tag, .sensor = Sensor::position, .size = seen.size};
   for (std::size_t i = 0; i < n; ++i) {
     detection.z[i] = position.mean(static_cast<Eigen::Index>(i)) + seen.origin[i];
     for (std::size_t j = 0; j < n; ++j) detection.covariance[i * n + j] = position.covariance.data()[i + 3 * j];
@@ -70,7 +69,7 @@ SensorPlaces::SensorPlaces(const FilterSettings& settings, const RecordingReader
 void SensorPlaces::place(Row& row) {
   AnyDetection& detection = row.detection;
   const int axes = recording_.axes();
-  if (detection.sensor == AnyDetection::Sensor::components) {
+  if (detection.sensor == Sensor::components) {
     const auto here = place_of(detection, axes);
     if (!frame_ && recording_.geodetic() && recording_.seen_from_places() && here) frame_.emplace(*here, axes);
     return;
@@ -97,7 +96,7 @@ void SensorPlaces::place(Row& row) {
     refuse("some sensors or positions are on the Earth, by latitude and longitude, and others are not",
            "place all of them there, or say with --origin LAT,LON,ALT from where metres are counted");
   const Position& first = stood_.try_emplace(row.sensor, detection.origin).first->second;
-  if (detection.sensor == AnyDetection::Sensor::doppler && first != detection.origin)
+  if (detection.sensor == Sensor::doppler && first != detection.origin)
     refuse("the sensor moves, and so its range rate is not the target's alone", "leave sigma_range_rate_mps out");
   several_ |= detection.origin != stood_.begin()->second;
 }

@@ -64,7 +64,7 @@ void TrackOutcome::count(const Row& row, const RecordingReader& recording, const
   ++rows;
   if (row.measured()) ++measurements;
   if (seen > 0 && seen < axes) ++partial;
-  if (row.detection.sensor == AnyDetection::Sensor::bearing) ++bearings;
+  if (row.detection.sensor == Sensor::bearing) ++bearings;
   if (!recording.simulated()) find_defaults(row, axes, own, by_default);
   if (!recording.has_sensors()) return;
   ++sensors[row.sensor];
@@ -74,7 +74,7 @@ void TrackOutcome::count(const Row& row, const RecordingReader& recording, const
   };
   if (is_moving(row.detection, axes) && !known(&SensorSettings::velocity_mps))
     ++unused["velocity does not count, for want of sensor.NAME.sigma_velocity_mps"][row.sensor];
-  if (row.detection.sensor == AnyDetection::Sensor::doppler && !known(&SensorSettings::range_rate_mps))
+  if (row.detection.sensor == Sensor::doppler && !known(&SensorSettings::range_rate_mps))
     ++unused["range rate does not count, for want of sensor.NAME.sigma_range_rate_mps"][row.sensor];
 }
 

@@ -105,8 +105,7 @@ void TrackPage::measured(const Row& row, const std::optional<Position>& position
   }
   if (anchor) track->anchor = anchor;
   track->last_position = position;
-  const bool is_seen_from = row.detection.sensor != AnyDetection::Sensor::position &&
-                            row.detection.sensor != AnyDetection::Sensor::components;
+  const bool is_seen_from = row.detection.sensor != Sensor::position && row.detection.sensor != Sensor::components;
   if (is_seen_from && row.measured() && !row.sensor_at && !row.sensor_place)  // that does not move
     stations_[row.detection.origin].insert(row.sensor.empty() ? "radar" : row.sensor);
   std::vector<double>& numbers = this->numbers(*track, row.detection.time, row.line);

@@ -109,8 +109,7 @@ class TrackRun {
 
   /// Where a row's measurement was, about where positions are counted from.
   std::optional<Position> where(const Row& row, Target& target) const {
-    if (!recording_.geodetic() || row.detection.sensor != AnyDetection::Sensor::components)
-      return position_of(row.detection, axes_);
+    if (!recording_.geodetic() || row.detection.sensor != Sensor::components) return position_of(row.detection, axes_);
     if (!target.anchor() || axes_seen(row.detection, axes_) == 0) return std::nullopt;
     target.last_place = place_of(row.detection, axes_).value_or(target.last_place);
     target.last_place.altitude_m = axes_ == 3 ? component_of(row.detection, 2).value_or(0.0) : 0.0;
@@ -189,7 +188,7 @@ class TrackRun {
   /// positions, or bearings, or as given.
   AnyDetection detection_for(const EarthTarget& filter, const FilterSettings& settings, const Row& row) const {
     AnyDetection detection = row.detection;
-    if (recording_.geodetic() && detection.sensor == AnyDetection::Sensor::components)
+    if (recording_.geodetic() && detection.sensor == Sensor::components)
       detection =
           filter.anchor() ? filter.in_frame(detection) : AnyDetection{.time = detection.time, .tag = detection.tag};
     const bool starts_anywhere = (settings.start == StartRule::given && !recording_.geodetic()) || crosses_;
@@ -202,7 +201,7 @@ class TrackRun {
   double distance(const Target& target, std::size_t f, const Row& row, const TargetPoint& expected) const {
     if (expected.mean.empty()) return 0.0;
     const EarthTarget& filter = target.filters[f];
-    const bool on_earth = recording_.geodetic() && row.detection.sensor == AnyDetection::Sensor::components;
+    const bool on_earth = recording_.geodetic() && row.detection.sensor == Sensor::components;
     const auto at = position_of(on_earth ? filter.in_frame(row.detection) : row.detection, axes_);
     double squares = 0.0;
     for (std::size_t i = 0; at && i < static_cast<std::size_t>(axes_); ++i)

@@ -38,7 +38,7 @@ void take_down(const Row& row, int axes, bool geodetic, Columns& columns) {
   double squares = 0.0;
   for (std::size_t i = 0; i < static_cast<std::size_t>(detection.size); ++i) {
     const auto key = quantity_of(detection, i);
-    const bool is_component = key.first == AnyDetection::Sensor::components;
+    const bool is_component = key.first == Sensor::components;
     own[key].push_back(detection.z[i] * (geodetic && is_component && key.second < 2 ? metres_a_degree : 1.0));
     if (is_component && key.second >= axes && key.second < axes + 2) squares += detection.z[i] * detection.z[i];
   }
@@ -78,7 +78,7 @@ void read(const std::string& file, const TuneOptions& options, const FilterSetti
     }
     if (!first && places.frame()) first = places.frame()->origin();
     checks.see(row, places.frame() ? &*places.frame() : nullptr);
-    const bool is_place = recording.geodetic() && row.detection.sensor == AnyDetection::Sensor::components;
+    const bool is_place = recording.geodetic() && row.detection.sensor == Sensor::components;
     if (is_place) {
       its.last = {component_of(row.detection, 0).value_or(its.last.latitude_deg),
                   component_of(row.detection, 1).value_or(its.last.longitude_deg),
@@ -121,16 +121,15 @@ void summarize(TuneData& data, const Columns& columns) {
     tracks.push_back(each(track.rows, &Row::detection));
     for (const Row& row : track.rows) {
       if (!row.measured()) continue;
-      const bool by_radar =
-          row.detection.sensor == AnyDetection::Sensor::polar || row.detection.sensor == AnyDetection::Sensor::doppler;
-      const bool is_bearing = row.detection.sensor == AnyDetection::Sensor::bearing;
+      const bool by_radar = row.detection.sensor == Sensor::polar || row.detection.sensor == Sensor::doppler;
+      const bool is_bearing = row.detection.sensor == Sensor::bearing;
       bool unsaid = false;  // whether the filter must know how well
       for (int i = 0; i < (is_bearing ? 1 : axes_seen(row.detection, data.axes)); ++i)
         unsaid |= std::isnan(row.detection.variance(i));
       ++data.measurements;
       TuneSensor& sensor = data.sensors[row.sensor];
       sensor.velocity |= is_moving(row.detection, data.axes);
-      sensor.range_rate |= row.detection.sensor == AnyDetection::Sensor::doppler;
+      sensor.range_rate |= row.detection.sensor == Sensor::doppler;
       (is_bearing ? sensor.bearing : by_radar ? sensor.radar : sensor.position) |= unsaid;
     }
   }
@@ -140,9 +139,8 @@ void summarize(TuneData& data, const Columns& columns) {
     const auto own = columns.find(name);
     if (own == columns.end()) continue;
     for (const auto& [key, numbers] : own->second) {
-      const bool is_longitude = data.geodetic && key == MeasuredQuantity(AnyDetection::Sensor::components, 1);
-      const double latitude =
-          is_longitude ? own->second.at({AnyDetection::Sensor::components, 0}).front() / metres_a_degree : 0.0;
+      const bool is_longitude = data.geodetic && key == MeasuredQuantity(Sensor::components, 1);
+      const double latitude = is_longitude ? own->second.at({Sensor::components, 0}).front() / metres_a_degree : 0.0;
       sensor.rounding[key] = rounding_of(numbers) * std::cos(latitude * degree);
       if (std::isinf(sensor.rounding[key]))
         data.notes.push_back(
@@ -193,7 +191,7 @@ TuneData read_tune_data(const TuneOptions& options, const FilterSettings& settin
   return data;
 }
 
-double TuneSensor::rounding_of(AnyDetection::Sensor kind, int from, int to) const {
+double TuneSensor::rounding_of(Sensor kind, int from, int to) const {
   std::optional<double> greatest;
   for (const auto& [key, own] : rounding)
     if (key.first == kind && key.second >= from && key.second <= to)

@@ -29,7 +29,7 @@ void add_sensor(const FilterSettings& settings, const std::string& name, const T
   const SensorSettings& now = settings.accuracy_of(name);
   // Of quantities of a kind, from one to another: no less than their rounding, no more than they change from row to
   // row.
-  const auto add = [&](std::string_view what, double start, AnyDetection::Sensor kind, int from, int to, double unit,
+  const auto add = [&](std::string_view what, double start, Sensor kind, int from, int to, double unit,
                        const std::function<void(SensorSettings&, double)>& set) {
     const auto column = sensor.rounding.lower_bound({kind, from});
     if (kind == components && !sensor.rounding.empty() &&

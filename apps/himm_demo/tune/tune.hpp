@@ -28,7 +28,7 @@ struct TuneSensor {
   std::map<MeasuredQuantity, double> rounding{};
 
   /// The greatest of quantities of a kind, from one to another; 0 if there is none, infinite if none changes.
-  double rounding_of(AnyDetection::Sensor kind, int from, int to) const;
+  double rounding_of(Sensor kind, int from, int to) const;
 };
 
 /// One target of a recording; its positions are about one point, and the tags of its detections are their numbers.
