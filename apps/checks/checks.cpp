@@ -57,7 +57,7 @@ void RecordingChecks::see(const Row& row, const LocalFrame* frame) {
 
 std::optional<std::string> RecordingChecks::assumed() const {
   const RecordingReader& recording = records_->recording;
-  if (!(recording.polar() || recording.bearings()) || recording.says_azimuth_from()) return std::nullopt;
+  if (!(recording.polar() || recording.bearings()) || recording.azimuth_from_is_given()) return std::nullopt;
   return fmt::format(
       "{}:1: azimuths are read counter-clockwise from x (east), as nobody said from where they count; compass "
       "azimuths: --azimuth-from north, clockwise from ahead (x): --azimuth-from ahead",

@@ -127,9 +127,9 @@ void check_held(const Records& records, Findings& findings) {
       if (end == k) continue;
       const Record *const first = rows[k - 1], *const last = rows[end - 1];
       // Its own velocity says that it moves, or it stops at once for good, or comes from afar and goes on by a jump.
-      const double told = std::min(speed_of(first), speed_of(last));
+      const double reported = std::min(speed_of(first), speed_of(last));
       const double came = k > 1 ? apart(first, rows[k - 2]) : 0.0;
-      const bool moves = told > moving && told * (last->time - first->time) > 5.0 * usual;
+      const bool moves = reported > moving && reported * (last->time - first->time) > 5.0 * usual;
       const bool stops = end == rows.size() && end - k >= few && came > 0.5 * usual;
       const double jump = end < rows.size() ? apart(rows[end], last) : 0.0;
       const bool leaps = jump > 0.5 * usual && came > 0.0 && (came > 0.5 * usual || jump > 1.7 * came);

@@ -51,7 +51,7 @@ std::string names_rows(const LabelledTable& table, const TableColumn& column) {
 }
 
 /// A column that alone tells the class, by few values, each of one class.
-std::string tells_class(const LabelledTable& table, const TableColumn& column) {
+std::string determines_class(const LabelledTable& table, const TableColumn& column) {
   constexpr std::size_t few_values = 8;
   std::map<double, std::size_t> class_of;
   std::size_t rows = 0;
@@ -100,7 +100,7 @@ std::string far_number(const TableColumn& column) {
 /// Numbers or words that may stand for no value.
 std::string sentinels(const LabelledTable& table, const TableColumn& column) {
   if (column.numeric()) return far_number(column);
-  const auto unknown = std::ranges::find_if(column.words, says_unknown);
+  const auto unknown = std::ranges::find_if(column.words, means_unknown);
   if (unknown == column.words.end()) return "";
   return of_column(column.name,
                    ": {} of {} rows hold {}, a value among words; if it stands for none, give --missing={}",
@@ -154,7 +154,7 @@ std::vector<std::string> of_classes(const LabelledTable& table) {
                               classes.size(), table.size()));
   for (std::size_t c = 0; c < classes.size(); ++c) {
     const std::string name = lower_case(classes[c]);
-    if (says_unknown(name) || name == "--" || name == "unknown")
+    if (means_unknown(name) || name == "--" || name == "unknown")
       found.push_back(of_column(table.label,
                                 ": {} of {} rows hold {}, which counts as a class; if their class is not "
                                 "known, remove these rows",
@@ -194,7 +194,7 @@ void print_findings(const LabelledTable& table) {
     const std::string written = column.numeric() ? "" : written_numbers(column);
     found.push_back(written.empty() ? names_rows(table, column) : written);
     if (!found.back().empty()) continue;  // the cause of what else there is to see
-    found.push_back(tells_class(table, column));
+    found.push_back(determines_class(table, column));
     found.push_back(sentinels(table, column));
   }
   for (const auto& finding : found)

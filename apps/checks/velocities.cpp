@@ -19,7 +19,7 @@ constexpr std::array lags = {-5.0, -4.0, -3.0, -2.0, -1.5, -1.0, 1.0, 1.5, 2.0, 
 
 /// How much a path grows in a second over some rows, what its velocities say, and what they say at other lags.
 struct Pair {
-  Complex growth, told;
+  Complex growth, reported;
   std::array<Complex, lags.size()> lagging;
 };
 
@@ -39,7 +39,7 @@ Complex way_at(const Path& path, double time) {
 /// Over so many rows, without gaps and without what hardly moves.
 std::vector<Pair> pairs_of(const std::vector<Path>& paths, std::size_t rows, double step) {
   std::vector<Pair> pairs;
-  const auto size_of = [](const Pair& pair) { return std::max(std::abs(pair.growth), std::abs(pair.told)); };
+  const auto size_of = [](const Pair& pair) { return std::max(std::abs(pair.growth), std::abs(pair.reported)); };
   std::vector<double> sizes;
   for (const Path& path : paths)
     for (std::size_t k = rows; k < path.size(); k += std::max<std::size_t>(1, rows / 2)) {
@@ -85,26 +85,26 @@ std::vector<Reading> readings_of_rates(const std::vector<Pair>& pairs, const Wor
     for (const Pair& pair : pairs) readings.back().off.push_back(std::norm(pair.growth - read(pair)));
   };
   constexpr Complex i(0.0, 1.0);
-  add(0, "", [](const Pair& pair) { return pair.told; });
+  add(0, "", [](const Pair& pair) { return pair.reported; });
   add(0, fmt::format("the {} have the other sign than {}: {}", words.rates, words.positions, words.remedy_of_sign),
-      [](const Pair& pair) { return -pair.told; });
+      [](const Pair& pair) { return -pair.reported; });
   if (!words.along_one_line) {
     add(0,
         "velocities are exchanged: x for y, or a course that counts from east, or latitude for longitude; map the "
         "columns the other way round with --columns",
-        [=](const Pair& pair) { return i * std::conj(pair.told); });
+        [=](const Pair& pair) { return i * std::conj(pair.reported); });
     add(0, "the sign of velocities along x: they and x are to grow to the east; write both so",
-        [](const Pair& pair) { return -std::conj(pair.told); });
+        [](const Pair& pair) { return -std::conj(pair.reported); });
     add(0, "the sign of velocities along y: they and y are to grow to the north; write both so",
-        [](const Pair& pair) { return std::conj(pair.told); });
+        [](const Pair& pair) { return std::conj(pair.reported); });
   }
-  const Complex times = fitted(pairs, [](const Pair& pair) { return pair.growth / pair.told; });
+  const Complex times = fitted(pairs, [](const Pair& pair) { return pair.growth / pair.reported; });
   if (times.real() > 0.0 && std::abs(std::log(times.real())) > 0.1)
     add(1,
         fmt::format("the scale of {}: they are {:.3g} times what {} say, as {} would be; name the unit in the header, "
                     "or map it with --columns",
                     words.rates, 1.0 / times.real(), words.positions, unit_of(1.0 / times.real())),
-        [=](const Pair& pair) { return times.real() * pair.told; });
+        [=](const Pair& pair) { return times.real() * pair.reported; });
   if (words.along_one_line) return readings;
   const double turn = std::arg(times);
   if (std::abs(turn) > 4.0 * degree)
@@ -112,15 +112,15 @@ std::vector<Reading> readings_of_rates(const std::vector<Pair>& pairs, const Wor
         fmt::format("a rotation: velocities point {:.3g}° to the {} of where positions go; count courses clockwise "
                     "from true north, not from magnetic north or a heading",
                     std::abs(turn) / degree, turn > 0.0 ? "right" : "left"),
-        [=](const Pair& pair) { return std::polar(1.0, turn) * pair.told; });
+        [=](const Pair& pair) { return std::polar(1.0, turn) * pair.reported; });
   if (!words.count) return readings;  // nobody believes them, so what follows costs nothing
-  const Complex wind = fitted(pairs, [](const Pair& pair) { return pair.growth - pair.told; });
+  const Complex wind = fitted(pairs, [](const Pair& pair) { return pair.growth - pair.reported; });
   if (std::norm(wind) > 0.0025 * all)
     add(2,
         fmt::format("a constant part: positions grow by ({:.2g}, {:.2g}) m/s more than velocities say, as where these "
                     "are through air (wind) or water; leave sigma_velocity_mps unset",
                     wind.real(), wind.imag()),
-        [=](const Pair& pair) { return pair.told + wind; });
+        [=](const Pair& pair) { return pair.reported + wind; });
   for (std::size_t k = 0; k < lags.size(); ++k)
     if (const double lag = lags[k] * step; std::abs(lag) >= 0.9)
       add(1,

@@ -234,16 +234,17 @@ void report(const ReproduceOptions& options, const std::vector<Condition>& condi
 
   for (const Preset preset : both_presets) {
     const std::string heading = fmt::format("{}: the figures that decide", words_of(preset));
-    result.add(
-        deciding_figures(of(preset)),
-        {.heading = heading,
-         .title = heading,
-         .note = "The least favourable one, against both IMMs; \"sure\": how many are where the sentence wants them."});
+    result.add(deciding_figures(of(preset)), {.heading = heading,
+                                              .title = heading,
+                                              .note = "The least favourable figure, against both IMMs; \"sure\" counts "
+                                                      "the figures whose interval is where the sentence wants it."});
   }
   result.say(
-      "(Scenario/group, filter : its reference, phase and axis. The relative difference of RMSE unless something else "
-      "is named, ± 95 % by paired runs, together for all figures of a sentence; \"sure\" is how many of them are where "
-      "the sentence wants them, and the figure is the least favourable, against the correct IMM.)");
+      "(Scenario/group, filter : its reference, phase and axis. A figure is a relative difference of RMSE, unless "
+      "another quantity is named. Intervals are ± 95 % by paired runs, together for all figures of a sentence. Shown "
+      "is the least favourable figure, against the correct IMM; \"sure\" counts the figures whose interval is where "
+      "the "
+      "sentence wants it.)");
   for (const Preset preset : both_presets) {
     const HeatMap map = overview_of(conditions, names_of(conditions), preset);
     result.add(table_of(map), {.heading = map.title + ", mean over axes and phases",

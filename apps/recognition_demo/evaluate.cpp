@@ -114,8 +114,8 @@ void refuse_rare_classes(const LabelledTable& data) {
   for (std::size_t row = 0; row < data.size(); ++row)
     if (of[data.labels[row]].size() < 2)
       throw InputError(
-          "{}:{}: column {}: found {} in a single {}, expected at least two of every class: one to learn from, one to "
-          "classify; add rows, or remove those of the class",
+          "{}:{}: column {}: found {} in a single {}, expected at least two of every class, one to learn from and one "
+          "to classify; add rows, or remove this class",
           data.file, data.lines[row], in_quotes(data.label), in_quotes(data.classes[data.labels[row]]),
           data.groups.empty() ? "row" : "group");
 }
@@ -194,10 +194,9 @@ void run_evaluate(const EvaluateOptions& options) {
                                       options.foldings == 1 ? "" : fmt::format("in {} foldings, ", options.foldings),
                                       options.seed, described(options.learning));
   const std::string note = fmt::format(
-      "The class is the most likely one, the first of those that tie. Differences ± 95 % by paired {}; the intervals "
-      "do "
-      "not count that other training rows make other classifiers. The shares are those of the classes. Necessity: 1 − "
-      "the possibility of the best other class. A truth is covered if its possibility is at least ½.",
+      "The answer is the most likely class; of tied classes, the first. Differences ± 95 % by paired {}, without the "
+      "variation of the training rows. Shares' log-loss: each row gets the classes' shares as probabilities. "
+      "Necessity: 1 − the possibility of the best other class. A truth is covered if its possibility is at least ½.",
       groups.empty() ? "rows" : "values of " + groups);
   const std::string use = advice(data, results, options);
   result.say("{}: {}\n{}", data.file, described(data), how);

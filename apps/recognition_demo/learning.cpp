@@ -77,7 +77,7 @@ void add_learning(Subcommand app, std::string& file, TableReading& data, TableOp
   app.list("--missing", data.missing,
            "Words that are missing values; - NA N/A nan null inf are so in columns of numbers")
       .type("WORD,…");
-  app.list("--missing-value", data.missing_value, "Columns of which a missing cell is a value of its own")
+  app.list("--missing-value", data.missing_value, "Columns whose missing cells are a value of their own")
       .type("COLUMN,…");
   app.option("--bins", learning.bins, "Bins of a numeric column").in(1, 1000);
   app.flag("--equal-width", learning.equal_width, "Bins of equal width instead of equal frequency");

@@ -144,11 +144,11 @@ void RecordingReader::find_columns() {
   if (!has(Role::range_rate)) std::swap(column(Role::range_rate), column(Role::range_rate, 1));
   drop(Role::range_rate, polar() && options_.range_rate ? 1 : 0);
   drop(Role::truth, axes_of(Role::truth) < axes_ ? 0 : axes);
-  const std::size_t told = located() && !options_.simulated ? axes : 0;
-  drop(Role::covariance, covariances(told));
+  const std::size_t usable = located() && !options_.simulated ? axes : 0;
+  drop(Role::covariance, covariances(usable));
   const bool has_variance = has(Role::covariance) || has(Role::covariance, 2) || has(Role::covariance, 5);
-  drop(Role::sigma_position, has_variance ? 0 : told);
-  if (told == 0 || has_variance) drop(Role::sigma_all_axes);
+  drop(Role::sigma_position, has_variance ? 0 : usable);
+  if (usable == 0 || has_variance) drop(Role::sigma_all_axes);
   if (!polar()) {
     drop(Role::sigma_polar, azimuth ? 2 : 0);
     column(Role::sigma_polar).reset();
@@ -181,7 +181,7 @@ void RecordingReader::refuse_other_kinds(bool cartesian, bool time_known, bool h
       {geodetic() && (cartesian || (polar() && !seen_from_places())), "there are columns of several kinds",
        polar() ? "say on which latitude and longitude the sensors stand, or rename the columns that do not count"
                : "rename those that do not count"},
-      {has(Role::sensor_position) && has(Role::sensor_place), "the place of a sensor is told in two ways",
+      {has(Role::sensor_position) && has(Role::sensor_place), "the place of a sensor is given in two ways",
        "rename the columns that do not count"},
       {located() && polar() && !sensor_, "there are positions and a radar's measurements, but no column sensor",
        "add one that names each row's sensor, or map its header with --columns"}};
@@ -215,7 +215,7 @@ std::string RecordingReader::taken() const {
     for (const auto units : {std::span<const Unit>(units::lengths), std::span<const Unit>(units::speeds),
                              std::span<const Unit>(units::angles)})
       for (const Unit& other : units)
-        if (other.words != columns_[q]->unit->words && says_unit(header_of(q), other.suffix) &&
+        if (other.words != columns_[q]->unit->words && names_unit(header_of(q), other.suffix) &&
             quantity.role != Role::covariance)
           part += fmt::format(", as --columns says, and not in {}", other.words);
     if (q == place_of(Role::polar) + 1)

@@ -144,7 +144,7 @@ bool has_decimal_comma(std::string_view word) {
   return comma != std::string::npos && parse_number(number);
 }
 
-bool says_unknown(std::string_view word) {
+bool means_unknown(std::string_view word) {
   constexpr std::array words = {"na", "n/a", "n.a.", "#n/a", "<na>", "nan", "nat", "null", "(null)", "\\n", "#div/0!"};
   return std::ranges::find(words, lower_case(word)) != words.end();
 }
@@ -163,7 +163,7 @@ bool MissingWords::operator()(std::string_view cell) const {
 
 bool MissingWords::among_numbers(std::string_view cell) const {
   constexpr std::array words = {"-", "--", ".", "none", "nil", "inf", "-inf", "+inf", "infinity", "-infinity"};
-  if (operator()(cell) || says_unknown(trimmed(cell))) return true;
+  if (operator()(cell) || means_unknown(trimmed(cell))) return true;
   return std::ranges::find(words, lower_case(trimmed(cell))) != words.end();
 }
 
@@ -185,7 +185,7 @@ LabelledTable read_table(const std::string& file, const TableReading& options, b
     for (ColumnReader& column : columns) column.take(row, missing);
     if (!group) continue;
     const std::string_view name = trimmed(row[*group]);
-    if (missing(name) || says_unknown(name)) throw row.error(*group, "the name of the row's group", "fill the cell");
+    if (missing(name) || means_unknown(name)) throw row.error(*group, "the name of the row's group", "fill the cell");
     table.groups.push_back(groups.number(name));
   }
   progress.finish();

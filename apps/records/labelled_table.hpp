@@ -46,7 +46,7 @@ class MissingWords {
 };
 
 /// Whether a word says that a value is not known, as NA does.
-bool says_unknown(std::string_view word);
+bool means_unknown(std::string_view word);
 
 /// Whether it would be a number if its comma were a point.
 bool has_decimal_comma(std::string_view word);

@@ -26,7 +26,7 @@ bool RecordingReader::next(Row& row) {
   row.rates = rates();
   const double time = row.detection.time;
   row.sensor_at = position(Role::sensor_position);
-  row.sensor_place = says(Role::sensor_place) ? std::optional(place(Role::sensor_place)) : std::nullopt;
+  row.sensor_place = has_value(Role::sensor_place) ? std::optional(place(Role::sensor_place)) : std::nullopt;
   ++rows_;
   row.detection = measured();
   row.detection.time = time;
@@ -54,28 +54,29 @@ std::optional<double> RecordingReader::number_in(std::size_t column) {
 /// What the row says of each quantity.
 void RecordingReader::take_numbers() {
   for (std::size_t q = 0; q < quantities.size(); ++q)
-    said_[q] = columns_[q] ? number_in(columns_[q]->index) : std::nullopt;
+    values_[q] = columns_[q] ? number_in(columns_[q]->index) : std::nullopt;
   // A longitude of 181° may be 179° west; it is none beside a latitude that is none, and so is an altitude.
-  const auto says_none = [&](std::size_t q) { return said_[q] && said_[q] == columns_[q]->not_available; };
-  const bool no_place = says_none(place_of(Role::place)) && says_none(place_of(Role::place) + 1);
+  const auto is_not_available = [&](std::size_t q) { return values_[q] && values_[q] == columns_[q]->not_available; };
+  const bool no_place = is_not_available(place_of(Role::place)) && is_not_available(place_of(Role::place) + 1);
   for (std::size_t q = 0; q < quantities.size(); ++q) {
     const Role role = quantities[q].role;
-    if (says_none(q) && (role != Role::place || no_place)) ++missing_cells_[columns_[q]->index];
-    if (role == Role::place ? no_place : says_none(q)) said_[q].reset();
-    if (said_[q] && std::abs(*said_[q]) >= beyond_sense) {
+    if (is_not_available(q) && (role != Role::place || no_place)) ++missing_cells_[columns_[q]->index];
+    if (role == Role::place ? no_place : is_not_available(q)) values_[q].reset();
+    if (values_[q] && std::abs(*values_[q]) >= beyond_sense) {
       ++missing_cells_[columns_[q]->index];
-      std::fill_n(said_.begin() + place_of(role), size_of(role), std::nullopt);
+      std::fill_n(values_.begin() + place_of(role), size_of(role), std::nullopt);
     }
-    if (said_[q]) *said_[q] *= columns_[q]->unit->value;
-    if (said_[q] && from_zenith_ && q == place_of(Role::polar) + 2) said_[q] = 90.0 - *said_[q];
-    if (said_[q] && is_accuracy(role) && role != Role::covariance && !(*said_[q] > 0.0))
+    if (values_[q]) *values_[q] *= columns_[q]->unit->value;
+    if (values_[q] && from_zenith_ && q == place_of(Role::polar) + 2) values_[q] = 90.0 - *values_[q];
+    if (values_[q] && is_accuracy(role) && role != Role::covariance && !(*values_[q] > 0.0))
       throw row_.error(columns_[q]->index, "a positive standard deviation", "leave the cell empty where it is unknown");
   }
   // A coordinate whose accuracy --missing names was not measured.
   for (std::size_t i = 0; i < 3; ++i)
     for (const std::size_t q :
          {place_of(Role::sigma_position) + i, place_of(Role::covariance) + covariances(i + 1) - 1})
-      if (columns_[q] && !said_[q] && !trimmed(row_[columns_[q]->index]).empty()) said_[place_of(where()) + i].reset();
+      if (columns_[q] && !values_[q] && !trimmed(row_[columns_[q]->index]).empty())
+        values_[place_of(where()) + i].reset();
 }
 
 std::optional<double> RecordingReader::written(std::size_t quantity) const {
@@ -87,13 +88,13 @@ std::optional<double> RecordingReader::written(std::size_t quantity) const {
 
 /// What columns tell of the velocity that do not count.
 Position RecordingReader::rates() const {
-  const auto told = [&](Role role, std::size_t i) {
+  const auto ignored = [&](Role role, std::size_t i) {
     const auto& column = doubted_[place_of(role) + i];
     const auto number = column ? written(place_of(role) + i) : std::nullopt;
     return number && std::abs(*number) < beyond_sense ? *number * column->unit->value : nan;
   };
-  Position rates = {told(Role::velocity, 0), told(Role::velocity, 1), told(Role::velocity, 2)};
-  const double speed = told(Role::course, 0), course = told(Role::course, 1) * degree;
+  Position rates = {ignored(Role::velocity, 0), ignored(Role::velocity, 1), ignored(Role::velocity, 2)};
+  const double speed = ignored(Role::course, 0), course = ignored(Role::course, 1) * degree;
   if (std::isnan(rates[0]) && axes_ > 1 && speed >= 0.0) {
     rates[0] = speed * std::sin(course);
     rates[1] = speed * std::cos(course);
@@ -102,8 +103,8 @@ Position RecordingReader::rates() const {
 }
 
 /// Whether it has a number.
-bool RecordingReader::says(Role role) const {
-  const auto first = said_.begin() + place_of(role);
+bool RecordingReader::has_value(Role role) const {
+  const auto first = values_.begin() + place_of(role);
   return std::any_of(first, first + size_of(role), [](const auto& number) { return number.has_value(); });
 }
 
@@ -113,21 +114,21 @@ InputError RecordingReader::error(Role role, std::size_t i, std::string_view exp
 
 void RecordingReader::require_whole(Role role, std::size_t size) const {
   for (std::size_t i = 0; i < size; ++i)
-    if (has(role, i) && !said(role, i))
+    if (has(role, i) && !value(role, i))
       throw error(role, i, "a number, since the row's other coordinates are there", "fill the cell or empty them all");
 }
 
 /// The position that it says, if it does.
 std::optional<Position> RecordingReader::position(Role role) const {
-  if (!says(role)) return std::nullopt;
+  if (!has_value(role)) return std::nullopt;
   require_whole(role, 3);
-  return Position{*said(role), said(role, 1).value_or(0.0), said(role, 2).value_or(0.0)};
+  return Position{*value(role), value(role, 1).value_or(0.0), value(role, 2).value_or(0.0)};
 }
 
 /// The place on the Earth that it says, perhaps without an altitude.
 Geodetic RecordingReader::place(Role role) const {
   require_whole(role, 2);
-  const Geodetic place{*said(role), *said(role, 1), said(role, 2).value_or(0.0)};
+  const Geodetic place{*value(role), *value(role, 1), value(role, 2).value_or(0.0)};
   if (place.is_valid()) return place;
   const double latitude = std::abs(place.latitude_deg), longitude = std::abs(place.longitude_deg);
   const bool is_latitude = latitude > 90.0;
@@ -145,8 +146,8 @@ Geodetic RecordingReader::place(Role role) const {
 
 /// What the row measured.
 AnyDetection RecordingReader::measured() {
-  const bool is_located = says(where()), is_moving = says(Role::velocity) || says(Role::course);
-  const bool is_seen = says(Role::polar) && (polar() || !is_located);
+  const bool is_located = has_value(where()), is_moving = has_value(Role::velocity) || has_value(Role::course);
+  const bool is_seen = has_value(Role::polar) && (polar() || !is_located);
   if (is_located && is_seen)
     throw error(Role::polar, 0, "an empty cell, since the row has a position", "give each sensor a row of its own");
   if (!is_seen) return components();
@@ -155,33 +156,33 @@ AnyDetection RecordingReader::measured() {
 }
 
 AnyDetection RecordingReader::radar_detection() const {
-  const bool is_bearing = !said(Role::polar, 0) && !said(Role::polar, 2);
+  const bool is_bearing = !value(Role::polar, 0) && !value(Role::polar, 2);
   if (!is_bearing) require_whole(Role::polar, 2);  // in space it may have no elevation
-  if (!is_bearing && !(*said(Role::polar) > 0.0))
-    throw error(Role::polar, 0, "a range above 0 m", "correct the cell, or empty those of a missed measurement");
-  if (!(std::abs(said(Role::polar, 2).value_or(0.0)) <= 90.0))
+  if (!is_bearing && !(*value(Role::polar) > 0.0))
+    throw error(Role::polar, 0, "a range above 0 m", "correct the cell, or empty the cells of a missed measurement");
+  if (!(std::abs(value(Role::polar, 2).value_or(0.0)) <= 90.0))
     throw error(Role::polar, 2, from_zenith_ ? "degrees from 0 to 180" : "degrees from −90 to 90",
                 "correct the cell; if all are gon or mils, write degrees");
-  const double azimuth = *said(Role::polar, 1);
+  const double azimuth = *value(Role::polar, 1);
   if (!(std::abs(azimuth) <= 360.0))
     throw error(Role::polar, 1, "degrees from −360 to 360", "correct the cell; if all are gon or mils, write degrees");
   const double from_east = (azimuth_from_ == AzimuthFrom::north   ? 90.0 - azimuth
                             : azimuth_from_ == AzimuthFrom::ahead ? -azimuth
                                                                   : azimuth) *
                            degree;
-  const double sigma_azimuth = said(Role::sigma_polar, 1).value_or(nan) * degree;
+  const double sigma_azimuth = value(Role::sigma_polar, 1).value_or(nan) * degree;
   if (is_bearing) return AnyDetection::bearing(0.0, radians(from_east), radians(sigma_azimuth));
-  const double sigma_range = said(Role::sigma_polar).value_or(nan);
-  std::vector<double> z = {*said(Role::polar), from_east};
+  const double sigma_range = value(Role::sigma_polar).value_or(nan);
+  std::vector<double> z = {*value(Role::polar), from_east};
   std::vector<double> variances = {sigma_range * sigma_range, sigma_azimuth * sigma_azimuth};
-  if (said(Role::polar, 2)) {
-    const double sigma_elevation = said(Role::sigma_polar, 2).value_or(nan) * degree;
-    z.push_back(*said(Role::polar, 2) * degree);
+  if (value(Role::polar, 2)) {
+    const double sigma_elevation = value(Role::sigma_polar, 2).value_or(nan) * degree;
+    z.push_back(*value(Role::polar, 2) * degree);
     variances.push_back(sigma_elevation * sigma_elevation);
   }
-  if (!said(Role::range_rate) || z.size() < static_cast<std::size_t>(axes_))
+  if (!value(Role::range_rate) || z.size() < static_cast<std::size_t>(axes_))
     return AnyDetection::polar(0.0, z, variances);
-  z.push_back(*said(Role::range_rate));
+  z.push_back(*value(Role::range_rate));
   variances.push_back(nan);
   return AnyDetection::doppler(0.0, z, variances);
 }
@@ -189,7 +190,7 @@ AnyDetection RecordingReader::radar_detection() const {
 /// The position, as far as the row has it, and the velocity; or that nothing was measured.
 AnyDetection RecordingReader::components() const {
   // A place has a latitude and a longitude; another position may lack any coordinate.
-  if (geodetic() && (said(Role::place) || said(Role::place, 1))) place(Role::place);
+  if (geodetic() && (value(Role::place) || value(Role::place, 1))) place(Role::place);
   std::vector<int> places;
   std::vector<double> z, variances;
   const auto add = [&](std::size_t place, double number, double sigma) {
@@ -197,17 +198,17 @@ AnyDetection RecordingReader::components() const {
     z.push_back(number);
     variances.push_back(sigma * sigma);
   };
-  const double sigma = said(Role::sigma_all_axes).value_or(nan);
+  const double sigma = value(Role::sigma_all_axes).value_or(nan);
   for (std::size_t i = 0; i < 3; ++i)
-    if (said(where(), i)) add(i, *said(where(), i), said(Role::sigma_position, i).value_or(sigma));
+    if (value(where(), i)) add(i, *value(where(), i), value(Role::sigma_position, i).value_or(sigma));
   const auto axes = static_cast<std::size_t>(axes_);
-  if (const auto speed = said(Role::course), course = said(Role::course, 1); speed && course) {
+  if (const auto speed = value(Role::course), course = value(Role::course, 1); speed && course) {
     if (!(std::abs(*course) <= 360.0)) throw error(Role::course, 1, "degrees from −360 to 360", "correct the cell");
     add(axes, *speed * std::sin(*course * degree), nan);
     add(axes + 1, *speed * std::cos(*course * degree), nan);
   }
   for (std::size_t i = 0; i < 3; ++i)
-    if (said(Role::velocity, i)) add(axes + i, *said(Role::velocity, i), nan);
+    if (value(Role::velocity, i)) add(axes + i, *value(Role::velocity, i), nan);
   return z.empty() ? AnyDetection{} : AnyDetection::components(0.0, places, z, covariance(places, variances));
 }
 
@@ -218,7 +219,7 @@ std::vector<double> RecordingReader::covariance(const std::vector<int>& places, 
     return covariances(static_cast<std::size_t>(places[i])) + static_cast<std::size_t>(places[j]);
   };
   const auto own = [&](std::size_t i, std::size_t j) {
-    return places[i] < axes_ ? said(Role::covariance, number(i, j)) : std::nullopt;
+    return places[i] < axes_ ? value(Role::covariance, number(i, j)) : std::nullopt;
   };
   std::vector<double> matrix(n * n);
   for (std::size_t i = 0; i < n; ++i) {

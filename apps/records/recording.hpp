@@ -88,16 +88,14 @@ class RecordingReader {
   bool located() const { return has(Role::position) || has(Role::place); }
   int axes() const { return axes_; }
   bool has_sensors() const { return sensor_.has_value(); }
-  bool tells_accuracy() const {
-    return has(Role::sigma_position) || has(Role::sigma_all_axes) || has(Role::covariance);
-  }
+  bool has_accuracy() const { return has(Role::sigma_position) || has(Role::sigma_all_axes) || has(Role::covariance); }
   bool has_tracks() const { return track_.has_value(); }
   bool has_truth() const { return has(Role::truth); }
   bool has_roll() const { return roll_.has_value(); }
   /// How azimuths run, and whether range rates grow as the range falls.
   AzimuthFrom azimuth_from() const { return azimuth_from_; }
   /// Whether an option or a header says so.
-  bool says_azimuth_from() const {
+  bool azimuth_from_is_given() const {
     return options_.azimuth_from || columns_[place_of(Role::polar) + 1]->unit->from_north;
   }
   /// Whether times are numbers, and of seconds.
@@ -172,8 +170,8 @@ class RecordingReader {
   std::optional<double> number_in(std::size_t column);
   void take_numbers();
   Position rates() const;
-  const std::optional<double>& said(Role role, std::size_t i = 0) const { return said_[place_of(role) + i]; }
-  bool says(Role role) const;
+  const std::optional<double>& value(Role role, std::size_t i = 0) const { return values_[place_of(role) + i]; }
+  bool has_value(Role role) const;
   void require_whole(Role role, std::size_t size) const;
   Geodetic place(Role role) const;
   std::optional<Position> position(Role role) const;
@@ -189,7 +187,7 @@ class RecordingReader {
   std::map<std::string, std::string, std::less<>> mapping_ = mapping_of(options_.columns);  // of headers
   std::array<std::optional<Column>, quantities.size()> columns_;
   std::array<std::optional<Column>, quantities.size()> doubted_;  // velocities that do not count
-  std::array<std::optional<double>, quantities.size()> said_;     // of the row, in m, m/s and degrees
+  std::array<std::optional<double>, quantities.size()> values_;   // of the row, in m, m/s and degrees
   std::size_t time_ = 0;
   const TimeColumn* time_unit_ = time_columns;
   bool times_are_numbers_ = false, times_have_dates_ = false;

@@ -97,8 +97,8 @@ bool RecordingReader::refused_time(const Row& row, double time) {
     last = {time, {row.sensor}};
     return false;
   }
-  const bool spoke = std::ranges::find(last.sensors, row.sensor) != last.sensors.end();
-  if (!(time == last.time) || spoke) return true;
+  const bool has_reported = std::ranges::find(last.sensors, row.sensor) != last.sensors.end();
+  if (!(time == last.time) || has_reported) return true;
   last.sensors.push_back(row.sensor);
   return false;
 }

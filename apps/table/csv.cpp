@@ -137,8 +137,8 @@ std::size_t CsvReader::column(std::string_view name) const {
   throw InputError({.where = file(),
                     .what = fmt::format("there is no column {}", in_quotes(name)),
                     .remedy = fmt::format("the columns are {}{}", fmt::join(names(), ", "),
-                                          is_lone ? ": one name in the first line; it is to hold those of all columns, "
-                                                    "parted by commas, tabs or semicolons"
+                                          is_lone ? ": one name in the first line; it must name all columns, "
+                                                    "separated by commas, tabs or semicolons"
                                                   : "")});
 }
 

@@ -41,7 +41,7 @@ std::optional<double> not_available(std::string_view header) {
   return std::nullopt;
 }
 
-bool says_unit(std::string_view header, std::string_view unit) {
+bool names_unit(std::string_view header, std::string_view unit) {
   constexpr std::pair<std::string_view, std::string_view> others[] = {
       {"ft", "feet"}, {"m", "meters"}, {"kmh", "km/h"}, {"mps", "m/s"}, {"kt", "knots"}, {"deg", "degrees"}};
   const auto known = std::ranges::find(others, unit, [](const auto& one) { return one.first; });

@@ -150,7 +150,7 @@ constexpr bool is_accuracy(Role role) {
 constexpr std::size_t covariances(std::size_t rows) { return rows * (rows + 1) / 2; }
 
 /// Whether a header names a unit at its end: altitude_ft, Altitude (ft), X [ft].
-bool says_unit(std::string_view header, std::string_view unit);
+bool names_unit(std::string_view header, std::string_view unit);
 
 /// Calls `use(header, unit)` for each header of a quantity, in order.
 template <class Use>

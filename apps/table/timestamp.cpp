@@ -89,21 +89,22 @@ std::optional<double> parse_timestamp(std::string_view text) {
 
 std::optional<double> parse_timestamp(std::string_view text, const std::string& format, bool& of_day) {
   const std::string cell(trimmed(text));
-  std::tm told{};
-  const char* const end = ::strptime(cell.c_str(), format.c_str(), &told);
+  std::tm parsed{};
+  const char* const end = ::strptime(cell.c_str(), format.c_str(), &parsed);
   if (end == nullptr) return std::nullopt;
   std::string_view rest = end;
   const auto fraction = take_fraction(rest);
   const auto zone = offset_minutes(trimmed(rest));
-  of_day = told.tm_mday == 0;
+  of_day = parsed.tm_mday == 0;
   if (of_day) {
-    told.tm_mday = 1;
-    told.tm_year = 70;
+    parsed.tm_mday = 1;
+    parsed.tm_year = 70;
   }
-  std::tm date = told;
+  std::tm date = parsed;
   const std::time_t seconds = ::timegm(&date);
-  if (!fraction || !zone || date.tm_mday != told.tm_mday) return std::nullopt;  // strptime takes the 31st of any month
-  return static_cast<double>(seconds - told.tm_gmtoff - 60 * *zone) + *fraction;
+  if (!fraction || !zone || date.tm_mday != parsed.tm_mday)
+    return std::nullopt;  // strptime takes the 31st of any month
+  return static_cast<double>(seconds - parsed.tm_gmtoff - 60 * *zone) + *fraction;
 }
 
 std::string_view doubt_of_format(std::string_view format) {

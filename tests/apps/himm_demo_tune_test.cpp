@@ -346,7 +346,7 @@ TEST(HimmDemoTune, BearingsAreJudgedFromAGivenStartAndRefusedWithoutOne) {
   const std::string file = directory.write("bearings.csv", apps::recording("time_s,azimuth_deg", row, 60));
   const auto without = tune(quickly(file));
   EXPECT_EQ(without.status, 3);
-  EXPECT_TRUE(says(without.output, {"its start may want positions", "sensor.NAME.at=[E,N]"}));
+  EXPECT_TRUE(says(without.output, {"its start needs whole positions", "sensor.NAME.at=[E,N]"}));
   const auto start = setting({"start=given", "start_mean=[1000,5000,0,50,-20,0,0,0,0]", "start_time_s=-1",
                               "start_covariance_diagonal=[10000,10000,1,25,25,1,1,1,1]", "sigma_azimuth_deg=0.5"});
   const auto given =

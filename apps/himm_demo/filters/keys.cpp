@@ -384,8 +384,8 @@ std::vector<FilterSettings> filters_for(RecordingOptions& recording, const Filte
   auto filters = read_filters(settings, defaults);
   settings.refuse_unknown();
   for (const auto& filter : filters) {
-    recording.velocity |= filter.knows(&SensorSettings::velocity_mps);
-    recording.range_rate |= filter.knows(&SensorSettings::range_rate_mps);
+    recording.velocity |= filter.has_sigma(&SensorSettings::velocity_mps);
+    recording.range_rate |= filter.has_sigma(&SensorSettings::range_rate_mps);
     auto all = filter.sensors;
     all.emplace("", filter.accuracy);
     for (const auto& [sensor, own] : all) {

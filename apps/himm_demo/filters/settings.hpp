@@ -59,7 +59,7 @@ struct FilterSettings : TargetChoice {
     return own == sensors.end() ? accuracy : own->second;
   }
   /// Whether an accuracy, of whatever sensor, has this.
-  bool knows(std::optional<double> SensorSettings::*sigma) const {
+  bool has_sigma(std::optional<double> SensorSettings::*sigma) const {
     return (accuracy.*sigma).has_value() ||
            std::ranges::any_of(sensors, [=](const auto& own) { return (own.second.*sigma).has_value(); });
   }

@@ -29,7 +29,7 @@ void add(Curve curve, LineChart& chart, const std::vector<double>& sigma = {}) {
 const Unit& unit_of_speeds(const RecordingReader& recording) {
   for (const std::string& header : recording.csv().names())
     for (const Unit& unit : std::span(units::speeds).subspan(1, 3))  // climbs are in the others
-      if (says_unit(header, unit.suffix)) return unit;
+      if (names_unit(header, unit.suffix)) return unit;
   return units::speeds[0];
 }
 

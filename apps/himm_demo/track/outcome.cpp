@@ -99,10 +99,10 @@ void TrackOutcome::refuse_nothing(const RecordingReader& recording, const Record
     throw InputError(
         "{}: {}, or give start = \"given\" with start_mean, start_covariance_diagonal and start_time_s", file,
         several_places
-            ? "the bearings cross at angles too small, or are too few, to tell where a target starts; give two rows "
-              "or more of each station, or models of less freedom (--set \"models=[dwna]\")"
-            : "bearings from one place do not tell where a target starts; name each row's station in a column sensor "
-              "and say where it stands, as sensor.NAME.at = [E, N]");
+            ? "the bearings are too few, or cross at too small angles, to start a track; give at least two rows of "
+              "each station, or a simpler model (--set \"models=[dwna]\")"
+            : "bearings from one place do not determine where a target starts; name each row's station in a column "
+              "sensor, and its place as sensor.NAME.at = [E, N]");
   const std::string skipped =
       recording.skipped() == 0 ? "" : fmt::format(", and {} that were skipped for their time", recording.skipped());
   throw InputError(

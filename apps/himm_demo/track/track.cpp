@@ -225,16 +225,16 @@ struct Reporter {
     for (std::size_t f = 0; f < filters.size(); ++f)
       for (const auto& [track, stays] : outcome.filters[f].histories) {
         if (stays.empty()) continue;
-        std::vector<std::string> told;
+        std::vector<std::string> changes;
         for (std::size_t i = 0; i < stays.size(); ++i) {
           const std::string& mode = filters[f].models[stays[i].mode];
           result.facts_at({"histories", filters[f].name, track, i}, "since_s", stays[i].since, "mode", mode, "start",
                           stays[i].is_start);
-          if (i < shown) told.push_back(fmt::format("{} from {} s", mode, shortest(stays[i].since)));
+          if (i < shown) changes.push_back(fmt::format("{} from {} s", mode, shortest(stays[i].since)));
         }
         result.text += "\n";
         result.say("Best history by {}{}: {}{}", filters[f].name, track.empty() ? "" : " of " + track,
-                   fmt::join(told, ", "),
+                   fmt::join(changes, ", "),
                    stays.size() > shown ? fmt::format(", and {} changes more", stays.size() - shown) : "");
       }
   }

@@ -132,7 +132,7 @@ std::string noise(const Evidence& evidence) {
           : fmt::format("too small ({:.0f} % of the innovations are where 95 % should be)",
                         100.0 * worst->share_inside());
   return fmt::format("{}: {} is {}: {}", evidence.file(), whose, by,
-                     evidence.recording.tells_accuracy() && is_sensor
+                     evidence.recording.has_accuracy() && is_sensor
                          ? "see the unit of the columns of standard deviations"
                          : evidence.tune());
 }

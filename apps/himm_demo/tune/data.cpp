@@ -181,8 +181,8 @@ TuneData read_tune_data(const TuneOptions& options, const FilterSettings& settin
   summarize(data, columns);
   if (data.geodetic && !data.has_truth)
     data.notes.push_back(
-        "sigma_position_m is that of white noise: correlated errors, as of a GNSS, cannot be told from the target's "
-        "motion without a truth; where the device's accuracy is known, keep it by --keep sensors");
+        "sigma_position_m assumes white noise; without a truth, correlated errors (GNSS) are fitted as motion; if the "
+        "device's accuracy is known, keep it by --keep sensors");
   if (data.measurements < fewest_in_all)
     throw InputError(
         "{}: there is too little to fit: found {} measurements of tracks with at least {}, expected at least {}; give "
@@ -280,9 +280,9 @@ Diagnosis diagnose(const TuneData& data, const FilterSettings& settings, Objecti
   }
   if (std::isnan(mean_loss(lost)))
     throw InputError(
-        "{}: filter '{}' makes no estimate that could be judged: its start may want positions, or fewer rows at one "
-        "time; drop a column that is always empty, as a track starts from whole positions, or give a start, --set "
-        "start=given, or places of bearings, --set sensor.NAME.at=[E,N]",
+        "{}: filter '{}' makes no estimate to judge: its start needs whole positions, or fewer rows at one time. Drop "
+        "columns that are always empty, or give a start, --set start=given, or the places of bearings, --set "
+        "sensor.NAME.at=[E,N]",
         data.tracks.front().file, settings.name);
   for (auto& mode : diagnosis.modes) mode.weight /= static_cast<double>(std::max<std::size_t>(rows, 1));
   for (auto& [name, tally] : sensors) diagnosis.sensors.push_back({name.empty() ? "all rows" : name, tally});

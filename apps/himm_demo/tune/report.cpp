@@ -94,13 +94,13 @@ ResultTable changes_table(const TunedFilter& tuned) {
 ResultTable numbers_table(const TunedFilter& tuned) {
   ResultTable table;
   for (const auto& [name, value, error, at_rounding] : tuned.best().numbers) {
-    const bool told = !at_rounding && std::isfinite(error);
+    const bool known = !at_rounding && std::isfinite(error);
     const std::string remark = at_rounding ? "no less: its column is rounded"
-                               : told      ? fmt::format(fmt::runtime(error < 100.0 ? "± {:.2g}" : "± {:.0f}"), error)
+                               : known     ? fmt::format(fmt::runtime(error < 100.0 ? "± {:.2g}" : "± {:.0f}"), error)
                                            : "not identifiable from these rows";
     table.row_of({{of_words("number", "fitted number"), name},
                   {{.key = "value", .header = "fitted"}, four(value)},
-                  {{.key = "error"}, told ? error : nan},
+                  {{.key = "error"}, known ? error : nan},
                   {of_words("remark", "standard error"), remark}});
   }
   return table;

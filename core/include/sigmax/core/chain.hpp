@@ -9,8 +9,8 @@
 
 namespace sigmax {
 
-/// What is left after a long row of compositions and updates, without a division on the way and without underflow: a
-/// number for each outcome of the current variable, with an exponent that has no bounds.
+/// Result of many compositions and updates in a row: a number for each outcome of the current variable. Nothing is
+/// divided on the way, and nothing underflows, since the exponents of the numbers have no bounds.
 ///
 ///     Chain chain{prior};
 ///     for (const Report& report : reports)

@@ -36,7 +36,7 @@ void values(const Outcomes& variable, Row row, std::span<const double> values, d
 /// The same of one of them.
 void value(const Outcomes& variable, Row row, std::size_t index, double value, double greatest);
 
-/// The stored values of a row are those of outcomes that the variable has, in ascending order.
+/// The stored values of a row belong to outcomes of the variable, in ascending order.
 void ascending(const Outcomes& variable, Row row, std::size_t next_allowed, std::size_t index);
 
 /// The variable has an outcome of this index.
@@ -64,7 +64,7 @@ void normalized(const Outcomes& variable, Row row, std::span<const double> value
 /// The values are likelihoods: finite, not negative, and at most one where ⊗ does not scale.
 void likelihoods(const Outcomes& variable, Row row, std::span<const double> values, const detail::AnyAlgebra& algebra);
 
-/// The same of weights, of which some is not zero.
+/// The weights are likelihoods, and at least one of them is not zero.
 void weights(const Outcomes& variable, Row row, std::span<const double> values, const detail::AnyAlgebra& algebra);
 
 /// The logarithm of a likelihood is not NaN, nor +∞.

@@ -111,8 +111,8 @@ void compose(const Relation<Kind, Kind>& left, const Belief<Kind>& right, Belief
   detail::compose_logs(detail::algebra_of<Kind>(), left.rows(), right.logs(), left.to(), result.logs(detail::ByLaw{}));
 }
 
-/// How well each outcome of `right.from()` explains evidence about `right.to()`: (42), (45), and with a random sensor
-/// over a fuzzy feature the p⁺ of (17), unnormalised as a likelihood should be.
+/// How well each outcome of `right.from()` explains evidence about `right.to()`, (42), (45). With a random sensor over
+/// a fuzzy feature it is the p⁺ of (17), unnormalised as a likelihood should be.
 template <Uncertainty Middle, Uncertainty From>
 Likelihood<From> compose(const Likelihood<Middle>& left, const Relation<Middle, From>& right) {
   check::same(left.variable(), right.to(), "compose");

@@ -80,8 +80,8 @@ ChainPosteriors<Kind> forward_backward(const Distribution<Kind>& start, const Tr
 
 }  // namespace detail
 
-/// The distributions of a variable at the start and after every step through `transition`, each given all reports,
-/// reports[t] being evidence about it after step t + 1: the sums of the forward–backward recursion, or its maxima.
+/// Distributions of a variable, given all reports, at the start and after every step through `transition`. They come
+/// from the forward–backward recursion by sums or maxima. Evidence about the variable after step t + 1 is reports[t].
 ///
 ///     const auto posteriors = forward_backward(prior, next, reports);   // reports.size() + 1 times
 ///     posteriors.at(17);

@@ -137,8 +137,8 @@ Distribution<Kind> given(const Distribution<Kind>& distribution, const Event<Kin
   return normalized(distribution.variable(), left.values());
 }
 
-/// Compatibility (1) of graded features, degree(f_X ⊆ f_x) = Σ μ min(f_X, f_x) / Σ μ f_X: `object` and `outcome` hold
-/// to which degree X and the concept x have each feature, `measure` what the feature weighs.
+/// Compatibility (1) of graded features, degree(f_X ⊆ f_x) = Σ μ min(f_X, f_x) / Σ μ f_X. `object` and `outcome` are
+/// the degrees to which X and the concept x have each feature; `measure` is the weight μ of the feature.
 ///
 /// Raw: it need not reach one for any outcome. To make it a distribution is a step of its own:
 ///

@@ -94,7 +94,7 @@ class RelationNetwork {
   struct Vertex {
     NetworkVariable variable;
     std::vector<std::size_t> parents;  ///< indices of vertices, all lower than its own
-    AnyRows rows;                      ///< a row per outcome of the parents, of which the last varies fastest
+    AnyRows rows;                      ///< a row per outcome of the parents; the last parent varies fastest
 
     /// All rows as one dense table.
     Table table() const { return dense_table(rows); }

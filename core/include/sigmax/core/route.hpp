@@ -18,7 +18,7 @@ struct Route {
 
 namespace detail {
 
-/// What won at every relation of a chain; a copy shares it, and what was appended stays as it is.
+/// The winners at every relation of a chain. Copies share them; appended winners never change.
 class History {
  public:
   History() = default;

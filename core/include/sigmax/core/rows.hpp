@@ -19,7 +19,7 @@ struct BandOfRow {
   std::vector<double> values;
 };
 
-/// A table of which each row stores a run of columns.
+/// A table that stores a run of columns in each row.
 ///
 ///     BandedRows{{0, {0.9, 0.1}}, {1, {0.4, 0.6}}}
 class BandedRows {
@@ -81,7 +81,7 @@ struct Entry {
   double value;
 };
 
-/// A table of which each row stores only some of its columns.
+/// A table that stores only some of the columns in each row.
 ///
 ///     SparseRows{{{0, 0.3}, {7, 1.0}}, {{7, 1.0}}}   // a row per outcome of the condition: column, value
 class SparseRows {

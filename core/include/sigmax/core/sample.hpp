@@ -17,8 +17,8 @@ std::size_t outcome_at(std::span<const double> values, double level);
 
 }  // namespace detail
 
-/// Index of an outcome drawn with its probability, from a generator as those of the standard library. One number of 53
-/// bits is drawn.
+/// Index of an outcome drawn with its probability, by a generator like the standard library's. One number of 53 bits is
+/// drawn.
 template <class Generator>
 std::size_t sample(const Distribution<Random>& distribution, Generator& generator) {
   return detail::outcome_at(distribution.values(), std::generate_canonical<double, 53>(generator));

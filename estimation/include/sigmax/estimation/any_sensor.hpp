@@ -36,8 +36,8 @@ class AnySensor {
       shared_ = std::make_shared<const Sensor>(std::move(sensor));
   }
 
-  /// What a measurement, with its covariance, tells of the position, if the sensor can tell it by itself: along how
-  /// many axes, or none, and as many numbers, at most three and nine. Throws std::invalid_argument for a measurement of
+  /// Writes the position that a single measurement determines, with its covariance. Returns the number of axes, at most
+  /// three, or 0 if the measurement does not determine a position. Throws std::invalid_argument for a measurement of
   /// another number of quantities.
   int position(detail::ConstView z, double* mean, double* covariance) const {
     return position_(sensor(), z, mean, covariance);
@@ -71,9 +71,9 @@ class AnySensor {
       const detail::View numbers = detail::sized_view(measured, z.n);
       std::copy_n(z.mean, z.n, numbers.mean);
       std::copy_n(z.covariance, z.n * z.n, numbers.covariance);
-      const std::optional told = static_cast<const Sensor*>(pointer)->position(measured);
-      if (!told) return 0;
-      const detail::ConstView position = detail::view(*told);
+      const std::optional result = static_cast<const Sensor*>(pointer)->position(measured);
+      if (!result) return 0;
+      const detail::ConstView position = detail::view(*result);
       std::copy_n(position.mean, position.n, mean);
       std::copy_n(position.covariance, position.n * position.n, covariance);
       return position.n;

@@ -34,8 +34,8 @@ class InnovationTally {
   double share_inside() const;
   /// @}
 
-  /// The mean square of the numbers, where it is if the filter is right, with a probability of 95 %, and the
-  /// correlation of each with the one before, which then is not farther than this from 0. Of `add_nis` nothing counts.
+  /// Mean square and autocorrelation of lag one of the numbers, each with its band: there it lies with a probability of
+  /// 95 % if the filter is consistent. Numbers of `add_nis` do not count.
   double mean_square() const { return squares_ / static_cast<double>(numbers_); }
   Band band() const { return chi_square_band(1.0, static_cast<double>(numbers_)); }
   double autocorrelation() const { return products_ / squares_; }

@@ -4,7 +4,7 @@
 
 namespace sigmax::detail {
 
-/// The lower triangular L with L Lᵀ = P, n × n by columns, by Cholesky's algorithm, for semi-definite P too: a pivot
+/// The lower triangular L with L Lᵀ = P, n × n by columns, by Cholesky's algorithm. P may be semi-definite: a pivot
 /// that is zero to rounding gives a column of zeros. Only the lower triangle of P is read. Returns zero, or the number,
 /// from one, of the component that shows that P is not positive semi-definite or not finite.
 int covariance_root(const double* P, int n, double* L);

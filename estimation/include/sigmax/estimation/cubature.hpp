@@ -5,7 +5,7 @@
 
 namespace sigmax {
 
-/// The cubature Kalman filter over a motion: 2n points of equal weight at x ± √n Lᵢ, the spherical–radial rule that is
+/// The cubature Kalman filter over a motion: 2n points of equal weight at x ± √n Lᵢ. This spherical–radial rule is
 /// exact for polynomials of degree three (Arasaratnam and Haykin 2009). Nothing to tune, no negative weight.
 ///
 /// Of a quadratic z = c + gᵀy + ½ yᵀBy of y = L⁻¹(x − x̄) it gives the exact mean c + ½ tr B and covariance with x,

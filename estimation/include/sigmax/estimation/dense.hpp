@@ -23,7 +23,7 @@ class Scratch {
   std::unique_ptr<Number[]> many_;
 };
 
-/// A matrix of which the entry (i, k) is at numbers[i · row + k · column].
+/// A matrix with the entry (i, k) at numbers[i · row + k · column].
 struct Strided {
   const double* numbers;
   int row, column;
@@ -46,8 +46,8 @@ inline void mirror_lower(double* matrix, int n) {
     for (int i = 0; i < k; ++i) matrix[i + k * n] = matrix[k + i * n];
 }
 
-/// Cholesky's factor: the lower triangular L with L Lᵀ = S, of which the lower triangle is read; false if S is not
-/// positive definite. NaN gives NaN.
+/// Cholesky's factor: the lower triangular L with L Lᵀ = S; false if S is not positive definite. Only the lower
+/// triangle of S is read. NaN gives NaN.
 bool cholesky_factor(const double* S, int n, double* L);
 
 /// The x of L x = z, in its place.

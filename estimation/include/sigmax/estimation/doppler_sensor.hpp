@@ -4,7 +4,7 @@
 
 namespace sigmax {
 
-/// A radar in its own space that also measures the rate of the range, in m/s: what PolarSensor measures, and behind it
+/// A radar in its own space that also measures the range rate, in m/s. The quantities of PolarSensor come first, then
 /// ṙ = dᵀv / r of a target at d from the origin with the velocity v. The radar stands still.
 template <int Axes>
 class DopplerSensor : public detail::RadarSensor<DopplerSensor<Axes>, Axes, Axes + 1, 2 * Axes> {

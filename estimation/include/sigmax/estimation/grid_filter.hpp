@@ -146,7 +146,7 @@ class GridFilter {
   /// The centre of the most probable or most possible cell.
   Vector<N> most_likely() const { return grid_.centre(index_of_greatest(belief_.values())); }
 
-  /// Mean and covariance of the belief; of a fuzzy state those of the density in proportion to it, (35).
+  /// Mean and covariance of the belief; if the state is fuzzy, of the density in proportion to it, (35).
   Gaussian<N> moments() const {
     double sum = 0.0;
     Gaussian<N> result{Vector<N>::Zero(), SquareMatrix<N>::Zero()};
@@ -229,8 +229,8 @@ class GridFilter {
     return grid;
   }
 
-  /// Cells become two along an axis while there are fewer than `least` or they are wider than `widest`, and one in
-  /// pairs while there are more than four times as many as wanted and they stay below `widest_joined`.
+  /// Halves cells along an axis while there are fewer than `least`, or they are wider than `widest`. Joins pairs while
+  /// there are more than four times as many as wanted, and they stay below `widest_joined`.
   void resize(Eigen::Index axis, Eigen::Index least, double widest, double widest_joined) {
     using Lattice = typename Grid<N>::Lattice;
     while ((grid_.extent()(axis) < least || grid_.step()(axis) > widest) && 2 * grid_.size() <= options_.most)

@@ -54,8 +54,8 @@ class GridRow {
   double greatest_ = -std::numeric_limits<double>::infinity();
 };
 
-/// The relation from the cells of one grid to those of another, stored sparsely; fill(to, i, row) adds where cell i
-/// goes, and `negligible` parts of the greatest weight of a row are left out. Each row is normalised by its own ⊕: its
+/// The relation from the cells of one grid to the cells of another, stored sparsely. fill(to, i, row) adds where cell i
+/// goes. Weights below `negligible` times the greatest of a row are left out. Each row is normalised by its own ⊕: its
 /// sum if the state is random, its maximum if it is fuzzy. So the numbers of a density need no common factor, and a row
 /// is a distribution whatever was cut off.
 template <Uncertainty Kind, int N, class Fill>

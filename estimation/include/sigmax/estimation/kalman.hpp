@@ -61,11 +61,11 @@ InnovationOf<Sensor> update(const Model& model, const EstimateOf<Model>& prior,
   InnovationOf<Sensor> innovation;
   innovation.residual.resize(m);
   innovation.covariance.resize(m, m);
-  detail::InnovationView told{innovation.residual.data(), innovation.covariance.data()};
+  detail::InnovationView view{innovation.residual.data(), innovation.covariance.data()};
   detail::update(detail::model_ref(model), detail::view(prior), detail::view(measurement),
-                 detail::sensor_ref(sensor, model), detail::sized_view(posterior, prior.size()), told);
-  innovation.squared_distance = told.squared_distance;
-  innovation.log_likelihood = told.log_likelihood;
+                 detail::sensor_ref(sensor, model), detail::sized_view(posterior, prior.size()), view);
+  innovation.squared_distance = view.squared_distance;
+  innovation.log_likelihood = view.log_likelihood;
   return innovation;
 }
 

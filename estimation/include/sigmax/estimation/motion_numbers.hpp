@@ -25,8 +25,8 @@ void known_turn(int axes, double omega, double q, double dt, double* F, double* 
 void coordinated_turn(int axes, double q, double q_omega, const double* x, double dt, double* image, double* F,
                       double* Q);
 
-/// The names of the components of a motion, ordered by derivative: x, y, z, vx, vy, vz, ax, ay, az, cut to the axes and
-/// to the number of derivatives, position included. Models that use them can be mixed.
+/// Names of the components of a motion, ordered by derivative: x, y, z, vx, vy, vz, ax, ay, az. There are as many as
+/// axes and derivatives, position included. Models that use them can be mixed.
 std::vector<std::string> motion_components(int axes, int orders);
 
 /// Returns the rate of a turn. Throws std::invalid_argument unless it is finite.

@@ -6,10 +6,10 @@
 
 namespace sigmax {
 
-/// The highest derivative is an Ornstein–Uhlenbeck process, that is first-order Gauss–Markov: it has the stationary
-/// standard deviation σ and forgets at the rate θ (1/s), d = −θ (d − m) dt + √(2θ) σ dW. Order 1: the position wanders
-/// about a point (σ in m). Order 2: the velocity (σ in m/s) does, as of ships (Millefiori et al. 2016). Order 3: the
-/// acceleration (σ in m/s²), the model of Singer (1970), whose α is θ.
+/// A motion whose highest derivative is an Ornstein–Uhlenbeck process, that is first-order Gauss–Markov. It has the
+/// stationary standard deviation σ and forgets at the rate θ (1/s), d = −θ (d − m) dt + √(2θ) σ dW. Order 1: the
+/// position wanders about a point (σ in m). Order 2: the velocity (σ in m/s) does, as of ships (Millefiori et al.
+/// 2016). Order 3: the acceleration (σ in m/s²), the model of Singer (1970), whose α is θ.
 ///
 /// With u = θT, F_s and Q_s are the exact integrals (Bar-Shalom, Li, Kirubarajan 2001, 8.2.3), for any u ≥ 0:
 /// F_s(a, last) = Tᵖ (1, (1 − e⁻ᵘ)/u, (u − 1 + e⁻ᵘ)/u²) for p = order − 1 − a = 0 … with e⁻ᵘ for p = 0. A known input

@@ -25,7 +25,7 @@ void bearing(const double* origin, const double* position, double* z, double* H)
 /// What `polar` sees, and the rate of the range; of position and velocity.
 void doppler(int axes, const double* origin, const double* x, double* z, double* H);
 
-/// z − predicted of m quantities of which the second is an azimuth, of so many z, a column each.
+/// Writes z − predicted for `count` measurements z, a column each, of m quantities. The second quantity is an azimuth.
 void polar_difference(const double* z, const double* predicted, int m, int count, double* result);
 
 /// What a radar's measurement of m quantities, with its covariance, tells of the position: its unbiased conversion.

@@ -7,8 +7,8 @@
 /// it; that of numbers does not.
 namespace sigmax {
 
-/// How a filter spreads its sigma points over N(x, P) with P = L Lᵀ: at x ± √spread Lᵢ, each with the weight
-/// 1/(2 spread), and at x itself with a weight for means and another for covariances.
+/// Spread and weights of the sigma points of N(x, P) with P = L Lᵀ. Points are at x ± √spread Lᵢ, each with the weight
+/// 1/(2 spread), and at x itself, with one weight for means and another for covariances.
 struct SigmaPointWeights {
   double spread = 0.0;
   double centre_of_mean = 0.0;
@@ -33,8 +33,8 @@ struct View {
   operator ConstView() const { return {mean, covariance, n}; }
 };
 
-/// What a motion along independent axes does in one step: F_s and Q_s, order × order, the same along each axis, and
-/// what a known input adds to the state.
+/// One step of a motion along independent axes: F_s and Q_s, order × order, the same along each axis, and the effect of
+/// a known input on the state.
 struct AxisLaw {
   int order;
   double F[9];

@@ -7,15 +7,15 @@
 
 namespace sigmax {
 
-/// What one step of a filter left, for smoothing: its duration in s and what it knew then.
+/// Record of one step of a filter, for smoothing: its duration in s, and its state after the step.
 template <class State>
 struct FilteredStep {
   double dt;  ///< since the step before; ignored for the first
   State state;
 };
 
-/// One step back of the smoother of Rauch, Tung and Striebel (1965): from what was known at k to what is known of k at
-/// the end, where the next step took `dt` seconds and `next` is smoothed already. With the prediction y of x,
+/// One backward step of the smoother of Rauch, Tung and Striebel (1965). `filtered` is the estimate at k; the next step
+/// took `dt` seconds, and its estimate `next` is smoothed already. With the prediction y of x,
 ///
 ///   A = Cov(x, y) P_y⁻¹,   x + A (yˢ − y),   P_x + A (Pˢ_y − P_y) Aᵀ.
 ///

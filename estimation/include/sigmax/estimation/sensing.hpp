@@ -80,18 +80,18 @@ concept SeenOf = (axes_of<Model> == 0 ||
                   axes_of<Sensor> <= axes_of<Model>)&&(!SeesLeading<Sensor> || Model::state_size == Eigen::Dynamic ||
                                                        requires { requires Sensor::seen_size <= Model::state_size; });
 
-/// Whether a sensor of what it sees, and of the model if that is its whole state, is a matrix or a function, and its
-/// Jacobian and its difference, if it gives them, are of the right shapes.
-template <class Sensor, class Seen, class... Asked>
-concept Tells = requires(const Sensor& sensor, const Asked&... asked) {
-  { sensor.measurement_matrix(asked...) } -> MatrixOf<Sensor::measurement_size, Seen::RowsAtCompileTime>;
+/// Holds if the sensor has a measurement matrix, or a function, of the right shape, and so its Jacobian and difference,
+/// if there are any. A sensor of the model's whole state also takes the model.
+template <class Sensor, class Seen, class... Models>
+concept MeasuresFrom = requires(const Sensor& sensor, const Models&... models) {
+  { sensor.measurement_matrix(models...) } -> MatrixOf<Sensor::measurement_size, Seen::RowsAtCompileTime>;
 }
 || requires(const Sensor& sensor, const Seen& x,
-            const Vector<Sensor::measurement_size, max_measurement_size_of<Sensor>>& z, const Asked&... asked) {
-  { sensor.measure(asked..., x) } -> MatrixOf<Sensor::measurement_size>;
-  requires !requires { sensor.measurement_jacobian(asked..., x); }
+            const Vector<Sensor::measurement_size, max_measurement_size_of<Sensor>>& z, const Models&... models) {
+  { sensor.measure(models..., x) } -> MatrixOf<Sensor::measurement_size>;
+  requires !requires { sensor.measurement_jacobian(models..., x); }
   || requires {
-    { sensor.measurement_jacobian(asked..., x) } -> MatrixOf<Sensor::measurement_size, Seen::RowsAtCompileTime>;
+    { sensor.measurement_jacobian(models..., x) } -> MatrixOf<Sensor::measurement_size, Seen::RowsAtCompileTime>;
   };
   requires !requires { sensor.measurement_difference(z, z); }
   || requires {
@@ -105,7 +105,7 @@ concept Tells = requires(const Sensor& sensor, const Asked&... asked) {
 template <Sensing Sensor>
 using MeasurementOf = Gaussian<Sensor::measurement_size, detail::max_measurement_size_of<Sensor>>;
 
-/// What a sensor measured, with its R, and by which sensor: what `update` and `step` take.
+/// A measurement z with its covariance R, and the sensor that made it; `update` and `step` take it.
 ///
 ///     const auto seen = PolarSensor<2>{radar}.measurement({5e3, degrees(40)}, {10.0, degrees(0.1)});
 ///     filter.step(1.0, seen);
@@ -134,8 +134,8 @@ inline constexpr bool measures_leading_components = requires {
 };
 
 /// A sensor that can measure the state of this model, by its valid expressions; no base class is needed. Functions of
-/// another size do not compile. A sensor either says how many leading components of the state it sees, and is asked
-/// with these alone whatever the model, or it is asked with the model and its whole state:
+/// another size do not compile. A sensor either says how many leading components of the state it sees, and is models
+/// with these alone whatever the model, or it is models with the model and its whole state:
 ///
 ///   Sensor::seen_size                number of leading components seen; x below is then these
 ///   sensor.measure(x)                h, m;  or sensor.measure(model, x)
@@ -152,8 +152,8 @@ inline constexpr bool measures_leading_components = requires {
 template <class Sensor, class Model>
 concept SensorOf = Sensing<Sensor> && StateModel<Model> && detail::SeenOf<Sensor, Model> &&(
     measures_leading_components<Sensor> || detail::ComputesItself<Sensor> || std::same_as<Sensor, AnySensor> ||
-    requires { requires detail::Tells<Sensor, Vector<Sensor::seen_size>>; } ||
-    requires { requires detail::Tells<Sensor, StateOf<Model>, Model>; });
+    requires { requires detail::MeasuresFrom<Sensor, Vector<Sensor::seen_size>>; } ||
+    requires { requires detail::MeasuresFrom<Sensor, StateOf<Model>, Model>; });
 
 /// A sensor whose h is a matrix for this model.
 template <class Sensor, class Model>
@@ -167,12 +167,12 @@ namespace detail {
 /// ∂h/∂x over what a sensor sees, as it gives it, else by automatic differentiation.
 template <class Sensor, int N, int MaxN, class... Model>
 RectangularMatrix<Sensor::measurement_size, N, max_measurement_size_of<Sensor>, MaxN> slope_of_sensor(
-    const Sensor& sensor, const Vector<N, MaxN>& x, const Model&... asked) {
-  if constexpr (requires { sensor.measurement_jacobian(asked..., x); })
-    return sensor.measurement_jacobian(asked..., x);
+    const Sensor& sensor, const Vector<N, MaxN>& x, const Model&... models) {
+  if constexpr (requires { sensor.measurement_jacobian(models..., x); })
+    return sensor.measurement_jacobian(models..., x);
   else
     return jacobian<Sensor::measurement_size, max_measurement_size_of<Sensor>>(
-        [&](const DifferentiableVector<N, MaxN>& variables) { return sensor.measure(asked..., variables); }, x);
+        [&](const DifferentiableVector<N, MaxN>& variables) { return sensor.measure(models..., variables); }, x);
 }
 
 }  // namespace detail

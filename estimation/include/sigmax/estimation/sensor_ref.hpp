@@ -31,18 +31,19 @@ struct SensorFunctions {
     write<Values>(values, numbers);
   }
 
-  /// What a sensor says of what it sees, and of the model if that is its whole state.
-  template <class Seen, class... Asked>
-  static void ask(const Sensor& own, const double* x, int n, int m, double* z, double* H, const Asked&... asked) {
-    if constexpr (requires { own.measurement_matrix(asked...); }) {
+  /// Writes the predicted measurement z and its Jacobian H. A sensor of the model's whole state also takes the model.
+  template <class Seen, class... Models>
+  static void evaluate(const Sensor& own, const double* x, int n, int m, double* z, double* H,
+                       const Models&... models) {
+    if constexpr (requires { own.measurement_matrix(models...); }) {
       using Matrix = RectangularMatrix<Sensor::measurement_size, Seen::RowsAtCompileTime,
                                        max_measurement_size_of<Sensor>, Seen::MaxRowsAtCompileTime>;
-      write_rows(Matrix(own.measurement_matrix(asked...)), m, H);
+      write_rows(Matrix(own.measurement_matrix(models...)), m, H);
     } else {
       const auto seen = read<Seen>(x, n);
-      if (z) write_rows(Measured(own.measure(asked..., seen)), m, z);
+      if (z) write_rows(Measured(own.measure(models..., seen)), m, z);
       if constexpr (Differentiates)
-        if (H) write_rows(slope_of_sensor(own, seen, asked...), m, H);
+        if (H) write_rows(slope_of_sensor(own, seen, models...), m, H);
     }
   }
 
@@ -52,9 +53,9 @@ struct SensorFunctions {
     if constexpr (ComputesItself<Sensor>) {
       own.compute(x, m, z, H);
     } else if constexpr (SeesLeading<Sensor>) {
-      ask<Vector<Sensor::seen_size>>(own, x, Sensor::seen_size, m, z, H);
+      evaluate<Vector<Sensor::seen_size>>(own, x, Sensor::seen_size, m, z, H);
     } else {
-      ask<StateOf<Model>>(own, x, n, m, z, H, *static_cast<const Model*>(model));
+      evaluate<StateOf<Model>>(own, x, n, m, z, H, *static_cast<const Model*>(model));
     }
   }
 
@@ -93,16 +94,16 @@ inline constexpr SensorTable sensor_table = [] {
   return table;
 }();
 
-/// What a sensor is asked with: the motion of a member, else the model.
+/// What a sensor is models with: the motion of a member, else the model.
 template <class Model>
-const auto& asked(const Model& model) {
+const auto& models(const Model& model) {
   if constexpr (requires { typename Model::MotionType; })
     return model.motion();
   else
     return model;
 }
 template <class Model>
-using AskedAs = std::remove_cvref_t<decltype(asked(std::declval<const Model&>()))>;
+using AskedAs = std::remove_cvref_t<decltype(models(std::declval<const Model&>()))>;
 
 /// The functions that filters of a model ask for: those with sigma points do not differentiate h.
 template <class Sensor, class Model>
@@ -114,7 +115,7 @@ SensorRef sensor_ref(const Sensor& sensor, const Model& model) {
   if constexpr (requires { sensor.ref_for(model); })
     return sensor.ref_for(model);
   else
-    return {&sensor, table_for<Sensor, Model>, &asked(model)};
+    return {&sensor, table_for<Sensor, Model>, &models(model)};
 }
 
 }  // namespace sigmax::detail

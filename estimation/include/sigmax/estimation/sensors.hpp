@@ -96,7 +96,7 @@ class ComponentSensor {
 
 namespace detail {
 
-/// What radars at one place have in common, of which the second quantity is the azimuth.
+/// Base of radars at one place; their second quantity is the azimuth.
 template <class Sensor, int Axes, int M, int Seen>
 class RadarSensor : public ComputedSensor<Sensor, M, Seen> {
   static_assert(Axes == 2 || Axes == 3, "range and azimuth, or also elevation");
@@ -130,9 +130,9 @@ class RadarSensor : public ComputedSensor<Sensor, M, Seen> {
 
 }  // namespace detail
 
-/// A radar in its own space: range in m, azimuth counter-clockwise from x, and with three axes the elevation from the
-/// x–y plane, in rad, of a target as seen from `origin`. Differences of azimuths are wrapped. The Jacobian does not
-/// exist at the origin and, of the azimuth, above it.
+/// A radar in its own space, at `origin`. It measures the range in m and the azimuth in rad, counter-clockwise from x;
+/// with three axes also the elevation in rad, from the x–y plane. Differences of azimuths are wrapped. The Jacobian
+/// does not exist at the origin and, of the azimuth, above it.
 template <int Axes>
 class PolarSensor : public detail::RadarSensor<PolarSensor<Axes>, Axes, Axes, Axes> {
  public:

@@ -74,10 +74,11 @@ Gaussian<3 * M> released_start(const TimedMeasurement<M>& first, const TimedMeas
   return start;
 }
 
-/// Position and velocity, of 3 derivatives also the acceleration, at the last one of bearings, in the order of their
-/// times: the most likely motion of constant velocity or acceleration, with the inverse of its Fisher information.
-/// Nothing where they do not tell it: too few, all from one place that stands still, or so nearly parallel that a
-/// standard deviation of the position is above a fifth of the distance to the nearest place, where nothing is linear.
+/// The most likely motion of constant velocity, or with 3 derivatives of constant acceleration, from bearings in the
+/// order of their times. It holds at the last bearing; its covariance is the inverse of the Fisher information.
+/// Returns nothing if the bearings do not determine it: too few, all from one place that stands still, or nearly
+/// parallel. Nearly parallel: a standard deviation of the position is above a fifth of the distance to the nearest
+/// place.
 template <int Derivatives>
   requires(Derivatives == 2 || Derivatives == 3)
 std::optional<Gaussian<2 * Derivatives>> crossed_bearings_start(std::span<const TimedBearing> bearings) {

@@ -8,8 +8,8 @@
 
 namespace sigmax {
 
-/// Where the unscented transform puts its points, c = α² (n + κ), and what their centre weighs: 1 − n/c for means and
-/// 1 − n/c + 1 − α² + β for covariances (Julier and Uhlmann 1997; Wan and van der Merwe 2000).
+/// Scaling of the unscented transform (Julier and Uhlmann 1997; Wan and van der Merwe 2000). Its spread is
+/// c = α² (n + κ). The weight of the centre is 1 − n/c for means and 1 − n/c + 1 − α² + β for covariances.
 ///
 /// The defaults are such that no weight is negative, so no covariance loses its definiteness. κ = 3 − n with β = 0
 /// matches the fourth moment along each axis, but has negative weights from four states on.

@@ -6,7 +6,7 @@
 
 namespace sigmax {
 
-/// The highest derivative is driven by continuous white noise of power spectral density q = σ_w²: order 2 is
+/// A motion whose highest derivative is driven by continuous white noise of power spectral density q = σ_w². Order 2 is
 /// white-noise acceleration (CWNA), order 3 white-noise jerk (CWPA); Bar-Shalom, Li, Kirubarajan 2001, 6.2. With p =
 /// order − 1 − a and r = order − 1 − b
 ///

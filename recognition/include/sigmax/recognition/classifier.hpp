@@ -67,9 +67,9 @@ class PairwiseSum {
 
 }  // namespace detail
 
-/// Pattern recognition from reports on one or several features: sigma inference (41)–(43) if patterns and features are
-/// random, max inference (44)–(46) if they are fuzzy, sigma-max inference (17) and (19) if a random sensor reads a
-/// fuzzy feature, (18) and (20) if a fuzzy one reads a random feature; nothing else changes.
+/// Recognition of patterns from reports on one or several features. The kinds decide the inference: sigma, (41)–(43),
+/// if patterns and features are random; max, (44)–(46), if they are fuzzy; sigma-max, (17) and (19), if a random sensor
+/// reads a fuzzy feature; max-sigma, (18) and (20), if a fuzzy sensor reads a random feature.
 ///
 ///     const Classifier classifier{uninformative(target), emitter_given_target};
 ///     Belief belief{classifier.prior()};

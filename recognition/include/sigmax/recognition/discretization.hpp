@@ -51,11 +51,11 @@ class Discretization {
 /// one, do not differ while several bins are wanted.
 Discretization equal_width(std::span<const double> values, std::size_t bins);
 
-/// `bins` bins with equal numbers of values, as far as ties allow: of n values in ascending order each cut is number
-/// ⌊jn/bins⌋, counted from 0, for j = 1 … bins−1; that value belongs to the bin above. A value that fills a bin, since
-/// two cuts fall on it, or one that is the least, has a bin of its own: in place of the second cut is the next greater
-/// value, if there is one, so there may be fewer bins; and where there are no more different values than bins, each has
-/// one. NaN are skipped. Throws as `equal_width` does.
+/// Divides values into `bins` bins with equal numbers of values, as far as ties allow. Cut j = 1 … bins−1 is the value
+/// number ⌊jn/bins⌋, counted from 0, of n values in ascending order; it belongs to the bin above. If two cuts fall on a
+/// value, or one falls on the least, this value has a bin of its own: the next greater value, if any, replaces the
+/// second cut. So there may be fewer bins. If there are no more different values than bins, each has one. NaN are
+/// skipped. Throws as `equal_width` does.
 Discretization equal_frequency(std::span<const double> values, std::size_t bins);
 
 }  // namespace sigmax

@@ -27,7 +27,7 @@ class FeatureModel {
     columns_ = columns([this](std::size_t reading) { return relation_.likelihood(reading); });
   }
 
-  /// The readings are those of a sensor. Throws std::invalid_argument, naming both, if it is one of another feature.
+  /// A feature that is read by a sensor. Throws std::invalid_argument, naming both, for a sensor of another feature.
   template <Uncertainty Reading>
   FeatureModel(Relation<Feature, Pattern> feature_given_pattern,
                const Relation<Reading, Feature>& reading_given_feature)

@@ -15,8 +15,8 @@ namespace sigmax {
 std::vector<std::size_t> stratified_folds(std::span<const std::size_t> labels, std::size_t folds,
                                           std::mt19937_64& generator);
 
-/// The same where rows of one group, a patient or a session, stay together: groups go by chance, each into one of the
-/// folds with the fewest rows, and the rows of no label all come into one fold. Groups are 0, 1, …, labels too. Throws
+/// Folds that keep the rows of one group, a patient or a session, together. Groups are dealt in random order, each to
+/// one of the folds with the fewest rows; no label has all its rows in one fold. Groups are 0, 1, …, labels too. Throws
 /// std::invalid_argument if there are fewer groups than folds, or if no division of a hundred parts every label.
 std::vector<std::size_t> grouped_folds(std::span<const std::size_t> labels, std::span<const std::size_t> groups,
                                        std::size_t folds, std::mt19937_64& generator);

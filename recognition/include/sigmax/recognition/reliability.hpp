@@ -24,7 +24,7 @@ class Reliability {
   /// Counts a statement that was believed to a degree. Throws std::invalid_argument if that is not in [0, 1].
   void add(double degree, bool is_true);
 
-  /// Counts what is believed of one object: a statement of each of its patterns, one of which is true. Throws
+  /// Adds the belief about one object: a statement for each pattern, one of them true. Throws
   /// std::invalid_argument, naming the variable, if there is no such pattern.
   template <Uncertainty Kind>
   void add(std::size_t truth, const Belief<Kind>& belief) {

@@ -60,7 +60,7 @@ struct TableFeature {
   std::size_t size() const { return (bins ? bins->size() : words.size()) + (missing_is_value ? 1 : 0); }
   std::vector<std::string> labels() const;
 
-  /// What is read of a number, or of the place of a word; of NaN what is read where a cell is missing.
+  /// Returns the reading of a number, or of the index of a word; NaN is a missing cell.
   std::size_t reading(double cell) const;
 
   /// Where a word is among the words, or nothing.

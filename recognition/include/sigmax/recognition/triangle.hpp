@@ -29,9 +29,9 @@ class Triangle {
   double minimum_, optimum_, maximum_;
 };
 
-/// π of bins: the supremum of the triangle over each, since a bin is as possible as its most possible value, but never
-/// less than `least`, which keeps values that were thought impossible from excluding for ever. The greatest is one
-/// wherever the optimum falls, as the bins leave no gap.
+/// Possibility of each bin: the supremum of the triangle over it, since a bin is as possible as its most possible
+/// value. No bin gets less than `least`, so that an unexpected value does not exclude a pattern for ever. The greatest
+/// is one wherever the optimum falls, as the bins leave no gap.
 ///
 /// Throws std::invalid_argument, naming the variable, if it has not as many outcomes as there are bins, and if `least`
 /// is not in [0, 1].

@@ -34,7 +34,7 @@ class ComposedRelation {
   /// Whether the rows are only induced, (17), (18): not normalised, each with its own β.
   bool induced() const { return induced_; }
 
-  /// The outcomes of `from` that nothing reaches; their rows are uninformative, as those of `invert`.
+  /// Outcomes of `from` that nothing reaches; their rows are uninformative, as in `invert`.
   const std::vector<std::size_t>& unreachable() const& { return unreachable_; }
   std::vector<std::size_t> unreachable() const&& { return unreachable_; }
 
