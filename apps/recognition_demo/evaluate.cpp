@@ -242,7 +242,7 @@ void add_evaluate(CLI::App& program, const std::string& command) {
   app.option("--folds", options->folds, "Parts of the data, each classified by what the others teach").in(2, 1000000);
   app.option("--foldings", options->foldings, "Divisions into folds; one alone may be a lucky one").in(1, 100000);
   app.option("--groups", options->data.groups,
-             "A column that names what rows are of, as a patient or a session: folds keep them together, and it is no "
+             "A column of groups, as a patient or a session: folds keep the rows of a group together, and it is no "
              "feature")
       .type("COLUMN");
   add_seed(app, options->seed, "of the folds");

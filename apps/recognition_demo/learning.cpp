@@ -83,8 +83,7 @@ void add_learning(Subcommand app, std::string& file, TableReading& data, TableOp
   app.flag("--equal-width", learning.equal_width, "Bins of equal width instead of equal frequency");
   app.option("--smoothing", learning.smoothing, "What is added to every count; 1 is Laplace's rule")
       .number_in(0.0, 1e9);
-  app.option("--misread", learning.misread,
-             "Probability that a reading is not the feature's value but one of the others")
+  app.option("--misread", learning.misread, "Probability that a sensor reads another value than the feature's")
       .number_in(0.0, 0.999);
   app.flag("--equal-prior", learning.equal_prior,
            "Every class is equally plausible before, whatever its share of the rows");

@@ -117,11 +117,10 @@ void run_train(const TrainOptions& options) {
         std::visit([](const auto& classifier) { return dominated_patterns(classifier); }, one.classifier());
     if (found.empty()) continue;
     const auto& pattern = model.counts.pattern();
-    result.say("warning: {} can never prefer {}: whatever is read, {} is at least as possible{}", one.name(),
-               in_quotes(pattern.label(found[0].pattern)), in_quotes(pattern.label(found[0].dominator)),
-               found.size() == 1
-                   ? ""
-                   : fmt::format("; so it is with {} others of {} classes", found.size() - 1, pattern.size()));
+    result.say(
+        "warning: {} can never prefer {}: whatever is read, {} is at least as possible{}", one.name(),
+        in_quotes(pattern.label(found[0].pattern)), in_quotes(pattern.label(found[0].dominator)),
+        found.size() == 1 ? "" : fmt::format("; so for {} others of {} classes", found.size() - 1, pattern.size()));
   }
   fmt::print("{}\nWrote {}\n", result.text, options.model);
 }

@@ -63,7 +63,7 @@ void add_recording(Subcommand app, RecordingOptions& recording, RadarOptions& ra
   app.option("--select", recording.select, "Only rows that have this value; may be repeated")
       .type("COLUMN=VALUE")
       .repeated();
-  app.option("--track-id", recording.track_id, "The column that tells tracks apart: a filter each").type("COLUMN");
+  app.option("--track-id", recording.track_id, "The column that identifies tracks: a filter each").type("COLUMN");
   app.choice(
          "--on-bad-time", {"error", "skip"}, [&](int what) { recording.skip_bad_times = what == 1; },
          "What to do where a time repeats or goes back [error]")

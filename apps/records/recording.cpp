@@ -226,7 +226,7 @@ std::vector<double> RecordingReader::covariance(const std::vector<int>& places, 
     matrix[i * (n + 1)] = variances[i] = own(i, i).value_or(variances[i]);
     for (std::size_t j = 0; j < i; ++j) {
       if (own(i, j) && std::isnan(variances[i] + variances[j]))
-        throw error(Role::covariance, number(i, j), "an empty cell, since the row does not tell both variances",
+        throw error(Role::covariance, number(i, j), "an empty cell, since the row does not have both variances",
                     "fill theirs");
       matrix[i * n + j] = matrix[j * n + i] = own(i, j).value_or(0.0);
     }
@@ -254,7 +254,7 @@ std::vector<std::string> RecordingReader::notes() const {
       list_of(missing_cells_, [&](const auto& of) { return fmt::format("{} {}", csv_.names()[of.first], of.second); });
   const std::pair<bool, std::string> notes[] = {
       {!columns.empty(), "Not used: " + columns},
-      {!missing.empty(), "Cells that say that there is no number: " + missing},
+      {!missing.empty(), "Cells that stand for no number: " + missing},
       {unused_velocities_ > 0,
        fmt::format("Velocities do not count in rows of a radar or with a bearing: {} rows", unused_velocities_)},
       {midnights_.rows > 0, fmt::format("Times of day pass midnight {}, first on line {}; there the time falls by more "

@@ -109,7 +109,7 @@ std::vector<std::string> SensorPlaces::notes() const {
   const std::string unplaced = list_of(
       unplaced_, [](const auto& of) { return fmt::format("{} {}", of.first.empty() ? "rows" : of.first, of.second); });
   if (several_ && !unplaced.empty())
-    sentences.push_back(fmt::format("No place is told, so taken to stand at ({}, {}, {}) m: {}",
+    sentences.push_back(fmt::format("No place is given, so the sensors stand at ({}, {}, {}) m: {}",
                                     shortest(otherwise_[0]), shortest(otherwise_[1]), shortest(otherwise_[2]),
                                     unplaced));
   return sentences;

@@ -54,7 +54,7 @@ void TrackTally::goes_to(const std::vector<double>& mean, int axes) {
 
 std::string TrackTally::why_silent() const {
   constexpr std::size_t start = 3;  // measurements
-  return fmt::format("{} measurement{}; a filter starts from {} whole positions, and tells from the next on{}",
+  return fmt::format("{} measurement{}; a filter starts from {} whole positions, and estimates from the next one on{}",
                      measurements, measurements == 1 ? "" : "s", start,
                      measurements > start ? ", and these do not lie so near each other" : "");
 }
