@@ -94,16 +94,16 @@ inline constexpr SensorTable sensor_table = [] {
   return table;
 }();
 
-/// What a sensor is models with: the motion of a member, else the model.
+/// What a sensor is asked with: the motion of a member, else the model.
 template <class Model>
-const auto& models(const Model& model) {
+const auto& asked(const Model& model) {
   if constexpr (requires { typename Model::MotionType; })
     return model.motion();
   else
     return model;
 }
 template <class Model>
-using AskedAs = std::remove_cvref_t<decltype(models(std::declval<const Model&>()))>;
+using AskedAs = std::remove_cvref_t<decltype(asked(std::declval<const Model&>()))>;
 
 /// The functions that filters of a model ask for: those with sigma points do not differentiate h.
 template <class Sensor, class Model>
@@ -115,7 +115,7 @@ SensorRef sensor_ref(const Sensor& sensor, const Model& model) {
   if constexpr (requires { sensor.ref_for(model); })
     return sensor.ref_for(model);
   else
-    return {&sensor, table_for<Sensor, Model>, &models(model)};
+    return {&sensor, table_for<Sensor, Model>, &asked(model)};
 }
 
 }  // namespace sigmax::detail
