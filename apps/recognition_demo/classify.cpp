@@ -226,7 +226,7 @@ void run_classify(const ClassifyOptions& options) {
   RowFile file(files, "predictions.csv", keys);
   const Classified found = classify_all(options, all, reader, rows, file);
 
-  Result result = result_of_contest("Classes of " + options.file, options.output);
+  Result result = comparison_result("Classes of " + options.file, options.output);
   result.say("{}: {} rows, by {}", reader.file(), found.rows, options.model);
   if (rows.unseen_cells > 0)
     result.say("\n{} as missing, since the model does not know {}: {}",

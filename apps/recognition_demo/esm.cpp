@@ -122,7 +122,7 @@ Drawn draw_run(const EsmWorld& world, const EsmTruth& truth, std::size_t reports
   return run;
 }
 
-NamedClassifier usage_aware_contestant(const EsmWorld& world, const Usage& usage,
+NamedClassifier usage_aware_classifier(const EsmWorld& world, const Usage& usage,
                                        const Relation<Random, Random>& sensor) {
   std::vector<std::vector<double>> usages, platforms;
   std::vector<double> prior;
@@ -168,7 +168,7 @@ std::vector<NamedClassifier> contestants(const EsmWorld& world, const EsmOptions
       read_by("max-sigma, ratio scale", usage, ratio),
       read_by("max-sigma, Dubois-Prade", usage, dubois_prade),
   };
-  if (options.alpha) all.push_back(usage_aware_contestant(world, usage_of(options), sensor));
+  if (options.alpha) all.push_back(usage_aware_classifier(world, usage_of(options), sensor));
   return all;
 }
 

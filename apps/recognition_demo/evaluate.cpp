@@ -185,7 +185,7 @@ void run_evaluate(const EvaluateOptions& options) {
   refuse_rare_classes(data);
   const std::string& groups = options.data.groups;
   const Results results = cross_validated(data, options);
-  Result result = result_of_contest("Cross-validation of " + data.file, options.output);
+  Result result = comparison_result("Cross-validation of " + data.file, options.output);
   result.facts("file", data.file, "rows", data.size(), "classes", data.classes, "folds", options.folds, "foldings",
                options.foldings, "seed", options.seed, "smoothing", options.learning.smoothing, "misread",
                options.learning.misread, "bins", options.learning.bins);

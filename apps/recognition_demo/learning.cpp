@@ -4,7 +4,7 @@
 
 namespace sigmax::apps {
 
-Result result_of_contest(std::string title, const OutputOptions& output, const std::vector<std::string>& contestants) {
+Result comparison_result(std::string title, const OutputOptions& output, const std::vector<std::string>& contestants) {
   constexpr std::size_t widest_words = 120;  // longer lines are hard to read
   Result result(output);
   result.words_width = output.wide ? widest_words : terminal_width;

@@ -27,7 +27,7 @@ inline ResultColumn of_points(std::string key, std::string header) {
 }
 
 /// A result begun: the page has its title, and the contestants are what it switches on and off.
-Result result_of_contest(std::string title, const OutputOptions& output,
+Result comparison_result(std::string title, const OutputOptions& output,
                          const std::vector<std::string>& contestants = {});
 
 template <class Variable>

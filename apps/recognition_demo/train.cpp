@@ -106,7 +106,7 @@ TableModel of_counts(const TrainOptions& options, Result& result) {
 
 void run_train(const TrainOptions& options) {
   refuse_to_overwrite("--model", options.model, {options.file});
-  Result result = result_of_contest("", options.output);
+  Result result = comparison_result("", options.output);
   const TableModel model = options.counts ? of_counts(options, result) : of_rows(options, result);
   const auto all = classifiers(model, options.kinds);
   write_model({model, options.kinds, options.data.missing}, options.model);

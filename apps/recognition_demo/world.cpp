@@ -116,7 +116,7 @@ void run_world(const World& world, const DrawOptions& options, ResultFiles& file
     add(own, run_of(row, own.size()));
   };
   if (!run(study, {.threads = options.threads}, options.output, add_row)) return;
-  Result result = result_of_contest(world.title, options.output, each(scores.front(), &Score::name));
+  Result result = comparison_result(world.title, options.output, each(scores.front(), &Score::name));
   world.tell(scores, result);
   result.publish(files);
 }

@@ -56,8 +56,8 @@ RecordingReader::RecordingReader(const RecordingOptions& options) : options_(opt
     if (equals == std::string::npos || equals == 0) throw UsageError("--select: '{}' is not COLUMN=VALUE", select);
     select_.emplace_back(csv_.column(select.substr(0, equals)), trimmed(std::string_view{select}.substr(equals + 1)));
   }
-  if (const auto doubt = doubt_of_format(options.time_format); !doubt.empty())
-    throw UsageError("--time-format '{}': {}", options.time_format, doubt);
+  if (const auto warning = time_format_warning(options.time_format); !warning.empty())
+    throw UsageError("--time-format '{}': {}", options.time_format, warning);
   if (!options.origin) return;
   if (!on_the_earth())
     throw UsageError("--origin is for geodetic input, or sensors with a latitude, but " + file() + " has none");

@@ -82,7 +82,7 @@ class RecordingReader {
   /// Whether azimuths stand without a range.
   bool bearings() const { return has(Role::polar, 1) && !polar(); }
   /// Whether there are velocities, and nothing that tells a position.
-  bool moves_alone() const { return !located() && !has(Role::polar, 1); }
+  bool has_only_velocities() const { return !located() && !has(Role::polar, 1); }
   bool velocity_counts() const { return options_.velocity; }
   /// Whether there are positions.
   bool located() const { return has(Role::position) || has(Role::place); }

@@ -38,7 +38,7 @@ extern "C" void end_interrupted(int signal) {
 }
 
 void handle_signals() {
-  say_when_interrupted("");
+  report_interruption("");
   struct sigaction action = {};
   action.sa_handler = end_interrupted;
   ::sigfillset(&action.sa_mask);
@@ -135,7 +135,7 @@ void refuse_unknown_options(const CLI::App& app, const Arguments& arguments) {
 
 }  // namespace
 
-void say_when_interrupted(std::string_view what_stays) {
+void report_interruption(std::string_view what_stays) {
   const char* const wipe = ::isatty(STDERR_FILENO) != 0 ? "\r\x1B[K" : "";  // a progress bar
   const std::string text = fmt::format("{}{}: interrupted; unfinished output was removed{}{}\n", wipe, running,
                                        what_stays.empty() ? "" : "; ", what_stays);

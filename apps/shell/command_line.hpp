@@ -28,7 +28,7 @@ inline constexpr int exit_usage = 2, exit_input = 3;
 int run_program(const char* name, const std::function<void()>& work);
 
 /// What such a signal leaves besides, for the message.
-void say_when_interrupted(std::string_view what_stays);
+void report_interruption(std::string_view what_stays);
 
 /// Prints a line to standard error, broken to the width of the tables if that is a terminal.
 void complain(std::string_view text);

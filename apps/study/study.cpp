@@ -172,7 +172,7 @@ bool run_first(const Study& study, const Sharing& sharing, Ranks* ranks, const O
   if (!options.out.empty() && !study.description.empty()) {
     const auto path = output_directory(options.out) / journal_name;
     journal.emplace(path, study.description);
-    say_when_interrupted(fmt::format("{} stays, and the same command goes on from there", printable(path.native())));
+    report_interruption(fmt::format("{} stays, and the same command goes on from there", printable(path.native())));
   }
   if (merges) journal->append(merged);
   CellRows waiting = journal ? journal->rows() : CellRows();  // until all before them are added

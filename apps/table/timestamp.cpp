@@ -107,7 +107,7 @@ std::optional<double> parse_timestamp(std::string_view text, const std::string& 
   return static_cast<double>(seconds - parsed.tm_gmtoff - 60 * *zone) + *fraction;
 }
 
-std::string_view doubt_of_format(std::string_view format) {
+std::string_view time_format_warning(std::string_view format) {
   const bool names_zone = format.find("%Z") != format.npos, has_half = format.find("%p") != format.npos;
   if (names_zone) return "names of zones are not read: add a column of UTC, or zones as +02:00, which %z reads";
   return has_half && format.find("%I") == format.npos ? "%p goes with hours up to 12, %I" : "";

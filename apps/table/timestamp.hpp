@@ -21,7 +21,7 @@ std::optional<double> parse_timestamp(std::string_view text, const std::string& 
 
 /// What is wrong with such a format, if it is: zones by name, halves of a day that do not count, or what tells of a day
 /// but not which; or nothing.
-std::string_view doubt_of_format(std::string_view format);
+std::string_view time_format_warning(std::string_view format);
 
 /// Whether that is a time of day, which tells no date.
 bool is_time_of_day(std::string_view text);

@@ -31,7 +31,7 @@ void History::append(kernels::Winners winners) {
   last_ = std::make_shared<Step>(Step{std::move(winners), std::move(last_)});
 }
 
-std::vector<std::size_t> History::way_to(std::size_t last, double value) const {
+std::vector<std::size_t> History::path_to(std::size_t last, double value) const {
   std::vector<std::size_t> outcomes{last};
   for (const Step* step = last_.get(); step; step = step->before.get())
     outcomes.push_back(step->winner(outcomes.back(), value));

@@ -68,7 +68,7 @@ void TrackPage::add_to(Report& page, const TrackOutcome& outcome) const {
     if (recording_.axes() > 1) view.panels.insert(view.panels.begin(), plan(name, track));
     const auto tally = outcome.each.find(track_name);
     if (tally != outcome.each.end() && tally->second.estimates == 0)
-      view.panels.emplace_back(Words{"No estimate", tally->second.why_silent()});
+      view.panels.emplace_back(Words{"No estimate", tally->second.reason_without_estimates()});
     page.views.push_back(std::move(view));
   }
   if (not_shown_ > 0)

@@ -52,7 +52,7 @@ void TrackTally::goes_to(const std::vector<double>& mean, int axes) {
   before = here;
 }
 
-std::string TrackTally::why_silent() const {
+std::string TrackTally::reason_without_estimates() const {
   constexpr std::size_t start = 3;  // measurements
   return fmt::format("{} measurement{}; a filter starts from {} whole positions, and estimates from the next one on{}",
                      measurements, measurements == 1 ? "" : "s", start,

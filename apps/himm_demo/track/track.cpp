@@ -104,7 +104,7 @@ struct Reporter {
     say(true, fmt::format("Taken for: {}", recording.taken()));
     say(!outcome.by_default.empty(),
         fmt::format("Sigmas that are the defaults: {}", fmt::join(outcome.by_default, ", ")));
-    say(recording.moves_alone(),
+    say(recording.has_only_velocities(),
         "There are no positions: without a given start a track starts at 0, a step before its first row, and positions "
         "are counted from there");
     say(recording.geodetic() && !truth_known,
@@ -172,7 +172,7 @@ struct Reporter {
       for (std::size_t f = 0; gated && f < filters.size(); ++f)
         fields.push_back({{.key = "rejected_" + filters[f].name, .header = filters[f].name, .group = "turned away:"},
                           track.nis[f].rejected});
-      fields.push_back({of_words("", "estimates"), track.estimates == 0 ? track.why_silent() : ""});
+      fields.push_back({of_words("", "estimates"), track.estimates == 0 ? track.reason_without_estimates() : ""});
       table.row_of(fields);
     }
     result.add(table, {.printed = false, .summary = {"tracks", "each"}});
@@ -258,7 +258,7 @@ void track_and_report(TrackOptions options) {
     if (!options.predict_to)
       throw UsageError({.what = "--predict-to", .found = in_quotes(text), .expected = "a time as in the file"});
   }
-  if (recording.moves_alone()) start_at_zero(filters);
+  if (recording.has_only_velocities()) start_at_zero(filters);
   refuse_to_overwrite(options.output, {options.recording.file, options.filters.config}, {"estimates.csv"});
   ResultFiles files(options.output);
   std::optional<TrackPage> tracks;

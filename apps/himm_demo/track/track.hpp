@@ -71,7 +71,7 @@ struct TrackTally {
   std::optional<Position> before{};  ///< the last estimate
 
   void goes_to(const std::vector<double>& mean, int axes);
-  std::string why_silent() const;
+  std::string reason_without_estimates() const;
 };
 
 /// Measurements that every filter's gate turned away, and the least expected of them: how far off it is.

@@ -61,7 +61,7 @@ void read(const std::string& file, const TuneOptions& options, const FilterSetti
   refuse_other_kind(options, data, recording);
   data.geodetic |= recording.geodetic();
   data.crosses |= recording.bearings() && !recording.located();
-  data.moves_alone |= recording.moves_alone();
+  data.has_only_velocities |= recording.has_only_velocities();
   SensorPlaces places(settings, recording, options.radar.place());
   const bool one_frame = options.radar.sigma || recording.has_truth() || recording.seen_from_places();
   std::optional<Geodetic> first = recording.origin();

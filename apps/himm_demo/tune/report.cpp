@@ -269,7 +269,7 @@ void run_tune(TuneOptions options) {
   if (!options.out.empty()) settings.emplace(options.out);
   ResultFiles files(options.output);
   TuneData data = read_tune_data(options, filters.front());
-  if (data.moves_alone) start_at_zero(filters);
+  if (data.has_only_velocities) start_at_zero(filters);
   Result result(options.output);
   result.page.title = fmt::format("Settings for {}", fmt::join(options.files, ", "));
   result.page.chooser = "Filter";

@@ -41,11 +41,11 @@ struct TuneTrack {
 struct TuneData {
   int axes = 3;
   bool has_truth = false;
-  bool geodetic = false;            ///< whether positions were places
-  bool crosses = false;             ///< whether bearings alone may start a track
-  bool moves_alone = false;         ///< whether there were velocities alone
-  std::vector<TuneTrack> tracks{};  ///< those long enough to be followed
-  std::size_t too_short = 0;        ///< tracks that are not
+  bool geodetic = false;             ///< whether positions were places
+  bool crosses = false;              ///< whether bearings alone may start a track
+  bool has_only_velocities = false;  ///< whether there were velocities alone
+  std::vector<TuneTrack> tracks{};   ///< those long enough to be followed
+  std::size_t too_short = 0;         ///< tracks that are not
   std::size_t measurements = 0;
   std::map<std::string, TuneSensor, std::less<>> sensors{};  ///< "" if the rows name none
   std::vector<std::string> notes{};                          ///< sentences on what does not count

@@ -30,7 +30,7 @@ class History {
   void append(kernels::Winners winners);
 
   /// The outcomes of the best way to `last`, whose number is `value`.
-  std::vector<std::size_t> way_to(std::size_t last, double value) const;
+  std::vector<std::size_t> path_to(std::size_t last, double value) const;
 
  private:
   struct Step;
@@ -64,7 +64,7 @@ class Routes {
 
   /// The best way to one outcome of the current variable; on ties the first outcome, decided from the end backwards.
   Route to(std::size_t outcome) const {
-    return {history_.way_to(outcome, chain_.row()[outcome].value()), chain_.log(outcome)};
+    return {history_.path_to(outcome, chain_.row()[outcome].value()), chain_.log(outcome)};
   }
 
  private:
