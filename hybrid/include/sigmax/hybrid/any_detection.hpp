@@ -24,7 +24,7 @@ struct AnyDetection {
     polar,       ///< range in m, azimuth counter-clockwise from x[, elevation] in rad, seen from `origin`; in space a
                  ///< radar may have no elevation
     bearing,     ///< azimuth alone
-    components,  ///< those of the state at `places`
+    components,  ///< components of the state, at `places`
     doppler      ///< as polar, and the rate of the range in m/s
   };
 
@@ -62,8 +62,8 @@ struct AnyDetection {
   double variance(int i) const { return covariance[static_cast<std::size_t>(i * (size + 1))]; }
 };
 
-/// The number of a position or of components that is this component of the state: those of the position come first,
-/// then of the velocity.
+/// The measured value of one component of the state, if the detection has it. Components of the position come first,
+/// then components of the velocity.
 std::optional<double> component_of(const AnyDetection& detection, int component);
 
 /// Along how many of so many axes a detection tells the position; a radar's without an elevation, of three, along two.

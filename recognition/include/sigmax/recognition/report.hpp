@@ -28,8 +28,8 @@ struct Reading {
   std::size_t index;
 };
 
-/// What a report says of one feature: the value that was read, or, where the sensor only grades, how well each value of
-/// the feature explains what it saw. It names its variable.
+/// The report on one feature: the value that was read, or a likelihood that grades how well each value explains the
+/// observation. It names its variable.
 template <Uncertainty Feature>
 using Finding = std::variant<Reading, Likelihood<Feature>>;
 

@@ -36,10 +36,10 @@ class EarthTarget : public AnyTarget {
   void follow(std::span<const AnyDetection> detections, const std::function<void(const EarthPoint&)>& visit);
 
   /// @{
-  /// The same in parts, for who looks at them: a detection in the frame of now, where what it does not tell is at the
-  /// place that is expected then; a step with it, or with any in that frame; and a point of that frame on the Earth.
-  /// The first and the last want a target that has begun; before that a step is AnyTarget's. A target that does not run
-  /// yet misses what is no whole place.
+  /// The parts of `follow`. `in_frame` gives a detection in the current frame; components that it lacks are taken from
+  /// the predicted place. `follow_in_frame` steps with a detection in that frame. `on_earth` puts a point of that frame
+  /// on the Earth. `in_frame` and `on_earth` require a target that has begun. Before that, a step is AnyTarget's, and a
+  /// detection without a whole place is missed.
   AnyDetection in_frame(const AnyDetection& detection) const;
   void follow_in_frame(const AnyDetection& detection, const std::function<void(const TargetPoint&)>& visit);
   EarthPoint on_earth(TargetPoint point, bool is_predicted = false) const;

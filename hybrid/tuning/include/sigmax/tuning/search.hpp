@@ -16,9 +16,9 @@ struct SearchOptions {
   std::uint64_t seed = 1;    ///< which part of the sequence
 };
 
-/// Finds numbers with a small loss by NLopt: the best points of a Sobol sequence lead to local searches by BOBYQA
-/// (Powell 2009), or by Sbplx for one number alone, and one more about the best of all. For the loss see `fit`; it is
-/// asked in one thread, and the result is that of the seed. Without parameters it is asked once.
+/// Finds numbers with a small loss by NLopt. The best points of a Sobol sequence start local searches by BOBYQA (Powell
+/// 2009), or by Sbplx where there is one number. A last search starts from the best result. For the loss see `fit`. One
+/// thread evaluates it, and the result depends on the seed alone. Without parameters it is evaluated once.
 ///
 ///     const Fit best = search({{.name = "sigma_w", .start = 3.0, .least = 0.01, .most = 100.0}},
 ///                             [&](const std::vector<double>& x) { return rmse(x[0]); });

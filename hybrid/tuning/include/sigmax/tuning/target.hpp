@@ -67,7 +67,7 @@ std::vector<FreeNumber<TargetChoice>> motion_numbers(const TargetChoice& choice,
 /// How likely, or how possible, each mode is left in a step, or its mean sojourn time if those are given.
 std::vector<FreeNumber<TargetChoice>> transition_numbers(const TargetChoice& choice, const TrackScale& scale);
 
-/// What detections lose where a few may be stray ones, none of which can outweigh the others: minus robust_log_score.
+/// Loss of detections among which a few may be outliers: minus robust_log_score. No outlier outweighs the other rows.
 class RobustLoss {
  public:
   RobustLoss(const Tracks& tracks, const TrackScale& scale);
@@ -78,8 +78,8 @@ class RobustLoss {
   /// How many detections are predicted no better than stray ones are.
   double strays(const RowLosses& losses, const RowCounts& counts = {}) const;
 
-  /// The mean loss, and more for each stray detection beyond a share of them: of positions that were held or
-  /// interpolated some are exact, and settings for these alone would give up all others.
+  /// The mean loss, and a penalty for each outlier beyond a share of the rows. Held or interpolated positions are
+  /// exact in part, and without the penalty settings for these rows alone would win.
   double objective(const RowLosses& losses, const RowCounts& counts = {}, double most_strays = 0.05) const;
 
  private:

@@ -5,7 +5,7 @@
 
 namespace sigmax {
 
-/// What is to be tuned: numbers, and what each row loses by them.
+/// The numbers to tune, and the loss of each row by their values.
 struct TuneProblem {
   std::vector<FitParameter> parameters;
   std::function<RowLosses(const std::vector<double>& values)> losses;  ///< may throw where a filter fails
@@ -26,10 +26,10 @@ struct Tuned {
 /// of the seed.
 Tuned tune(const TuneProblem& problem, const RowFolds& folds, const SearchOptions& options = {});
 
-/// The standard error of each number, scaled: H⁻¹ J H⁻¹ of the surface, and greater where the profile likelihood says
-/// so, which is the least loss with the number elsewhere and the others fitted anew. Infinite of a number that is at a
-/// bound or that the rows do not tell to a unit of its scale, a factor of e: it is not identifiable. Slopes of rows
-/// that follow each other are added up first, so many, where losses are those of errors that last.
+/// Standard error of each number in its scale: H⁻¹ J H⁻¹ of the surface, or the profile likelihood's where that is
+/// greater. The profile is the least loss with the number fixed and the others fitted again. A number at a bound, or
+/// uncertain by more than a factor of e, is not identifiable: its error is infinite. With correlated errors the slopes
+/// of `together` consecutive rows are summed first.
 std::vector<double> standard_errors(const TuneProblem& problem, const Tuned& tuned, std::size_t together = 1);
 
 }  // namespace sigmax
