@@ -14,7 +14,7 @@
 namespace sigmax {
 namespace {
 
-/// act(stored, known) for every number of a track's estimates, in the order of kinematic_plan.hpp, and where its
+/// act(stored, known) for every number of a track's estimates, in the order of a block, and where its
 /// weights follow.
 template <class Stored, class Known, class Act>
 Stored* for_each_number(Stored* at, std::size_t lanes, Known& estimates, const Act& act) {
@@ -67,8 +67,8 @@ template <ScalableUncertainty Kind, std::floating_point Number>
 TrackBank<Kind, Number>::TrackBank(const std::vector<AnyModel>& models, ModeTransition<Kind> transition,
                                    const Interaction<Kind>& interaction)
     : general_(models, std::move(transition), detail::anywhere(models), interaction),
-      lanes_(detail::kinematic::lane_bytes() / sizeof(Number)) {
-  if (general_.shortcut().axes() == 0)
+      lanes_(detail::lane_bytes() / sizeof(Number)) {
+  if (general_.fast_path().axes() == 0)
     throw std::invalid_argument("a bank of tracks is for up to four models that move along the same independent axes");
   numbers_ = models.size() + 1;
   for (const AnyModel& model : models) {
@@ -148,16 +148,16 @@ void TrackBank<Kind, Number>::run(double dt, std::span<const ScanOfTracks<Number
     if (scan.tracks_ != blocks() * lanes_)
       throw std::invalid_argument("a scan for " + std::to_string(scan.tracks_) + " tracks; the bank has room for " +
                                   std::to_string(blocks() * lanes_) + ": ask it for a new one");
-  const bool shortens = general_.shortens(dt);
+  const bool fast = general_.prepare_fast_path(dt);
   threads = std::clamp<std::size_t>(threads, 1, std::max<std::size_t>(blocks(), 1));
-  if (threads == 1) return run_blocks(dt, scans, shortens, 0, blocks(), general_);
+  if (threads == 1) return run_blocks(dt, scans, fast, 0, blocks(), general_);
   std::vector<std::exception_ptr> errors(threads);
   std::vector<std::jthread> team;
   for (std::size_t t = 0; t < threads; ++t)
     team.emplace_back([&, t] {
       try {
         Filter general = general_;
-        run_blocks(dt, scans, shortens, blocks() * t / threads, blocks() * (t + 1) / threads, general);
+        run_blocks(dt, scans, fast, blocks() * t / threads, blocks() * (t + 1) / threads, general);
       } catch (...) {
         errors[t] = std::current_exception();
       }
@@ -168,7 +168,7 @@ void TrackBank<Kind, Number>::run(double dt, std::span<const ScanOfTracks<Number
 }
 
 template <ScalableUncertainty Kind, std::floating_point Number>
-void TrackBank<Kind, Number>::run_blocks(double dt, std::span<const ScanOfTracks<Number>> scans, bool shortens,
+void TrackBank<Kind, Number>::run_blocks(double dt, std::span<const ScanOfTracks<Number>> scans, bool fast,
                                          std::size_t first, std::size_t last, Filter& general) {
   const auto ask_for = [](const Number* numbers, std::size_t size) {  // has what comes next read meanwhile
     for (std::size_t k = 0; k < size; k += Line{}.size()) __builtin_prefetch(numbers + k);
@@ -183,7 +183,7 @@ void TrackBank<Kind, Number>::run_blocks(double dt, std::span<const ScanOfTracks
         ask_for(scans[0].block(number + 1), scan.size_ * lanes_);
         ask_for(block(number + 1), numbers_ * lanes_);
       }
-      unsigned left = shortens ? general.shortcut().step_block(block(number), scan.block(number)) : all;
+      unsigned left = fast ? general.fast_path().step_block(block(number), scan.block(number)) : all;
       for (std::size_t lane = 0; left != 0; ++lane, left >>= 1U)
         if ((left & 1U) != 0 && lives_[number * lanes_ + lane])
           step_generally(dt, number * lanes_ + lane, scan, general);
@@ -197,7 +197,7 @@ void TrackBank<Kind, Number>::step_generally(double dt, std::size_t track, const
   read(track, state);
   general.restore(state);
   double mean[3], covariance[9];
-  const detail::View z{mean, covariance, general.shortcut().axes()};
+  const detail::View z{mean, covariance, general.fast_path().axes()};
   try {
     const Seen seen{z, detail::sensor_of_models(detail::position_sensor(z.n))};
     general.step(dt, scan.get(track, z) ? &seen : nullptr);

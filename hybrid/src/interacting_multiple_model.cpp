@@ -1,7 +1,5 @@
 #include <sigmax/hybrid/interacting_multiple_model.hpp>
 
-#include <numbers>
-
 #include <sigmax/core/compose.hpp>
 #include <sigmax/hybrid/sound.hpp>
 
@@ -15,12 +13,14 @@ InteractingFilter<Kind>::InteractingFilter(const std::vector<AnyModel>& models, 
     : Filter(models, std::move(transition), start, interaction),
       predicted_(start),
       move_in_(invert(system_.transition(), belief())),
-      likelihood_(system_.mode_variable()) {
+      likelihood_(system_.mode_variable()),
+      fast_path_(models, interaction) {
   move_in_.unreachable.reserve(modes());
 }
 
 template <ScalableUncertainty Kind>
 bool InteractingFilter<Kind>::measure(double dt, const Seen& seen, double limit) {
+  if (try_fast_path(dt, &seen)) return this->passes(limit);
   mix(dt);                                     // step 1, (51)–(59)
   for (std::size_t j = 0; j < modes(); ++j) {  // step 2, (60), (61)
     this->predict_model(j, next().estimates.view(j), dt, predicted_.view(j));
@@ -37,6 +37,7 @@ bool InteractingFilter<Kind>::measure(double dt, const Seen& seen, double limit)
 
 template <ScalableUncertainty Kind>
 void InteractingFilter<Kind>::miss(double dt) {
+  if (try_fast_path(dt, nullptr)) return;
   mix(dt);
   for (std::size_t j = 0; j < modes(); ++j) {
     const detail::View estimate = next().estimates.view(j);
@@ -46,45 +47,22 @@ void InteractingFilter<Kind>::miss(double dt) {
   next().belief = prior_;
 }
 
-/// By the short form for motions along independent axes, with a measurement of the position or none.
 template <ScalableUncertainty Kind>
-bool InteractingFilter<Kind>::shortened(double dt, const Seen* seen, double limit) {
-  if (!this->shortcut_.takes(seen ? &seen->sensor : nullptr, seen ? seen->z.n : 0)) return false;
-  if (!this->shortens(dt)) return false;
-  detail::kinematic::Told told;
-  for (std::size_t j = 0; j < modes(); ++j) {
-    const detail::View result = next().estimates.view(j);
-    told.mean[j] = result.mean;
-    told.covariance[j] = result.covariance;
-    told.predicted[j] = predicted_.view(j).mean;
-    told.residual[j] = innovations_[j].residual_numbers.data();
-    told.S[j] = innovations_[j].covariance_numbers.data();
-  }
-  const auto take = [&](const double* z, const double* R) {
-    return this->shortcut_.step(estimates(), this->weights_.data(), this->most_likely_mode(), z, R, told);
-  };
-  if (!(seen ? take(seen->z.mean, seen->z.covariance) : take(nullptr, nullptr))) return false;
-  const auto prior = prior_.logs(detail::ByLaw{});
-  for (std::size_t j = 0; j < modes(); ++j) prior[j] = std::log(told.prior[j]);
-  this->predicted_mode_ =
-      detail::select(modes(), Filter::logs_of(prior_), this->most_likely_mode(), interaction_.output_tie);
-  bool taken = seen != nullptr;
-  if (seen) {
-    for (std::size_t j = 0; j < modes(); ++j) {
-      AnyInnovation& innovation = innovations_[j];
-      innovation.size = seen->z.n;
-      innovation.squared_distance = told.squared_distance[j];
-      innovation.log_likelihood = -0.5 * told.squared_distance[j];
-      if (interaction_.likelihood == LikelihoodForm::density)
-        innovation.log_likelihood += 0.5 * (std::log(told.precision[j]) - seen->z.n * std::log(2.0 * std::numbers::pi));
-    }
-    taken = this->passes(limit);
-  }
-  if (seen && !taken && !take(nullptr, nullptr)) return false;
-  const auto posterior = next().belief.logs(detail::ByLaw{});
-  for (std::size_t j = 0; j < modes(); ++j) posterior[j] = taken ? std::log(told.posterior[j]) : prior[j];
-  this->conclude(taken);
-  return true;
+bool InteractingFilter<Kind>::prepare_fast_path(double dt) {
+  const auto* const transition = std::get_if<Table>(&system_.transition(dt).rows());
+  return transition && fast_path_.prepare(this->laws(dt), transition->data());
+}
+
+template <ScalableUncertainty Kind>
+bool InteractingFilter<Kind>::try_fast_path(double dt, const Seen* seen) {
+  return fast_path_.takes(seen) && prepare_fast_path(dt) &&
+         fast_path_.step(this->state(), this->version(), seen ? &seen->z : nullptr, next(), prior_, predicted_,
+                         innovations_);
+}
+
+template <ScalableUncertainty Kind>
+void InteractingFilter<Kind>::output(const State& state, detail::View result) const {
+  if (!fast_path_.output(state, &state == &this->state() ? this->version() : 0, result)) Filter::output(state, result);
 }
 
 /// Step 1: prior and move-in weights of the mode, (51), (52) or (53), (54), and the mixed starts.

@@ -16,8 +16,6 @@ MultipleModelFilter<Kind>::MultipleModelFilter(const std::vector<AnyModel>& mode
       components_(models),
       innovations_(modes()),
       prior_(uninformative(system_.mode_variable())),
-      weights_(modes()),
-      shortcut_(models, interaction),
       entries_(detail::estimates_of(models)),
       laws_(modes()),
       states_{State{start, prior_}, State{start, prior_}} {
@@ -32,7 +30,7 @@ void MultipleModelFilter<Kind>::restore(const State& state) {
   check::starts(system_.models(), state.estimates);
   check::same(system_.mode_variable(), state.belief.variable(), "restore");
   states_[current_] = state;
-  read_weights(belief(), weights_.data());
+  ++version_;
   seen_ = accepted_ = false;
 }
 
@@ -55,13 +53,14 @@ void MultipleModelFilter<Kind>::restart(ConstView start) {
 template <ScalableUncertainty Kind>
 void MultipleModelFilter<Kind>::forget_mode() {
   states_[current_].belief = Belief{uninformative(system_.mode_variable())};
-  read_weights(belief(), weights_.data());
+  ++version_;
   states_[current_].most_likely_mode = detail::select(modes(), logs_of(belief()), 0, interaction_.output_tie);
   seen_ = accepted_ = false;
 }
 
 template <ScalableUncertainty Kind>
 void MultipleModelFilter<Kind>::transform(const double* A, const double* b, int axes) {
+  ++version_;
   for (std::size_t j = 0; j < modes(); ++j) detail::transform(A, b, axes, states_[current_].estimates.view(j));
 }
 
@@ -90,21 +89,13 @@ void MultipleModelFilter<Kind>::output_receiver(const State& state, View result)
 template <ScalableUncertainty Kind>
 template <class Rule>
 void MultipleModelFilter<Kind>::write_output(const Rule& rule, const State& state, View result) const {
-  detail::OfModes of_state(&state == states_.data() + current_ ? 0 : static_cast<int>(modes()));
-  const double* weights = weights_.data();
-  if (&state != states_.data() + current_) {
-    read_weights(state.belief, of_state);
-    weights = of_state;
-  }
-  constexpr bool selects = std::is_same_v<Rule, Selection>;
-  bool short_form = true;
-  if constexpr (!selects) short_form = rule.output_spread == OutputSpread::included;
-  if (short_form && shortcut_.output(selects, state.estimates, weights, state.most_likely_mode, result)) return;
   const int n = component_count();
   detail::Scratch mean(n), covariance(n * n);
   const View receiver{mean, covariance, n};
   output_receiver(state, receiver);
   detail::Parts parts(static_cast<int>(modes()));
+  detail::OfModes weights(static_cast<int>(modes()));
+  for (std::size_t j = 0; j < modes(); ++j) weights[j] = state.belief[j];
   detail::collapse(rule, mixture(receiver, components_.of_all(), state.estimates, parts), weights,
                    state.most_likely_mode, result);
 }
@@ -126,7 +117,7 @@ double MultipleModelFilter<Kind>::beta() const requires SelectiveAlgebra<Algebra
   output_receiver(state(), receiver);
   detail::Parts parts(static_cast<int>(modes()));
   detail::OfModes weights(static_cast<int>(modes()));
-  read_weights(belief(), weights);
+  for (std::size_t j = 0; j < modes(); ++j) weights[j] = belief()[j];
   return detail::match_envelope(mixture(receiver, components_.of_all(), estimates(), parts), weights,
                                 {of_envelope, covariance_of_envelope, n});
 }
@@ -176,6 +167,11 @@ double MultipleModelFilter<Kind>::gate_distance() const {
 }
 
 template <ScalableUncertainty Kind>
+typename MultipleModelFilter<Kind>::Predictors MultipleModelFilter<Kind>::predictors() const {
+  return {innovations_, prior_.logs(), detail::select(modes(), logs_of(prior_), mode_before_, interaction_.output_tie)};
+}
+
+template <ScalableUncertainty Kind>
 bool MultipleModelFilter<Kind>::passes(double limit, std::optional<double> distance) {
   gate_distance_ = distance;
   return limit == std::numeric_limits<double>::infinity() || gate_distance() <= limit;
@@ -185,19 +181,19 @@ template <ScalableUncertainty Kind>
 void MultipleModelFilter<Kind>::predict_mode(double dt) {
   seen_ = accepted_ = false;
   compose(system_.transition(dt), belief(), prior_);
-  predicted_mode_ = detail::select(modes(), logs_of(prior_), most_likely_mode(), interaction_.output_tie);
-  describe_models(dt);
+  laws(dt);
 }
 
 template <ScalableUncertainty Kind>
-void MultipleModelFilter<Kind>::describe_models(double dt) {
-  if (dt == laws_dt_) return;
+const std::vector<detail::AxisLaw>& MultipleModelFilter<Kind>::laws(double dt) {
+  if (dt == laws_dt_) return laws_;
   laws_dt_ = std::numeric_limits<double>::quiet_NaN();
   for (std::size_t j = 0; j < modes(); ++j) {
     const detail::ModelRef& ref = model(j).ref();
     if (ref.table->law) ref.table->law(ref.motion, dt, laws_[j]);
   }
   laws_dt_ = dt;
+  return laws_;
 }
 
 template <ScalableUncertainty Kind>
@@ -223,31 +219,22 @@ void MultipleModelFilter<Kind>::update_model(std::size_t j, ConstView prior, con
 }
 
 template <ScalableUncertainty Kind>
-bool MultipleModelFilter<Kind>::shortens(double dt) {
-  const auto* const transition = std::get_if<Table>(&system_.transition(dt).rows());
-  describe_models(dt);
-  return transition && shortcut_.prepare(laws_, dt, transition->data());
-}
-
-template <ScalableUncertainty Kind>
 void MultipleModelFilter<Kind>::step(double dt, const Seen* seen, const Gate& gate) {
   require(dt, seen);
+  mode_before_ = most_likely_mode();
   const double limit = seen ? gate.limit(seen->z.n) : 0.0;
-  if (!shortened(dt, seen, limit)) {
-    bool accepted = false;
-    try {
-      if (seen)
-        accepted = measure(dt, *seen, limit);
-      else
-        miss(dt);
-    } catch (const std::domain_error& error) {
-      throw std::domain_error(this_step(dt) + ": " + error.what());
+  bool accepted = false;
+  try {
+    next().most_likely_mode = modes();  // none yet
+    if (seen) accepted = measure(dt, *seen, limit);
+    if (!accepted) {
+      next().most_likely_mode = modes();
+      miss(dt);
     }
-    if (seen && !accepted)
-      step(dt);
-    else
-      conclude(accepted);
+  } catch (const std::domain_error& error) {
+    throw std::domain_error(this_step(dt) + ": " + error.what());
   }
+  conclude(accepted);
   seen_ = seen != nullptr;
 }
 
@@ -282,10 +269,11 @@ RecordedStep<Kind> MultipleModelFilter<Kind>::recorded(double dt, const Seen* se
 
 template <ScalableUncertainty Kind>
 void MultipleModelFilter<Kind>::conclude(bool accepted) {
-  next().most_likely_mode =
-      detail::select(modes(), logs_of(next().belief), most_likely_mode(), interaction_.output_tie);
+  if (next().most_likely_mode == modes())
+    next().most_likely_mode =
+        detail::select(modes(), logs_of(next().belief), most_likely_mode(), interaction_.output_tie);
   current_ = 1 - current_;
-  read_weights(belief(), weights_.data());
+  ++version_;
   accepted_ = accepted;
   ++steps_;
 }

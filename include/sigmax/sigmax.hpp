@@ -60,6 +60,7 @@
 #include <sigmax/hybrid/detection.hpp>
 #include <sigmax/hybrid/envelope.hpp>
 #include <sigmax/hybrid/estimates.hpp>
+#include <sigmax/hybrid/fast_path.hpp>
 #include <sigmax/hybrid/filter_bank.hpp>
 #include <sigmax/hybrid/fit.hpp>
 #include <sigmax/hybrid/fit_target.hpp>
@@ -72,8 +73,6 @@
 #include <sigmax/hybrid/interacting_multiple_model.hpp>
 #include <sigmax/hybrid/interaction.hpp>
 #include <sigmax/hybrid/jump_markov_system.hpp>
-#include <sigmax/hybrid/kinematic_plan.hpp>
-#include <sigmax/hybrid/kinematic_step.hpp>
 #include <sigmax/hybrid/mixture.hpp>
 #include <sigmax/hybrid/mode_transition.hpp>
 #include <sigmax/hybrid/motion_choice.hpp>
@@ -81,6 +80,7 @@
 #include <sigmax/hybrid/second_order_multiple_model.hpp>
 #include <sigmax/hybrid/sound.hpp>
 #include <sigmax/hybrid/state_augmentation.hpp>
+#include <sigmax/hybrid/step_plan.hpp>
 #include <sigmax/hybrid/target.hpp>
 #include <sigmax/hybrid/target_rules.hpp>
 #include <sigmax/hybrid/track_manager.hpp>

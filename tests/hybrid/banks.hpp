@@ -294,7 +294,7 @@ class AnyFilter : public Shown {
   Filter filter_;
 };
 
-/// That of one model: its Kalman filter, as kinematic_step_test.cpp shows.
+/// That of one model: its Kalman filter, as fast_path_test.cpp shows.
 inline AnyFilter alone(const MotionChoice& motion, const State& start) {
   return {with(chosen(false), {motion}, {{1.0}}), std::vector{start}};
 }

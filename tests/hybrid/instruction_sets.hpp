@@ -5,7 +5,7 @@
 
 namespace sigmax::support {
 
-/// Does it with the short step as compiled for each instruction set that this processor has, the best one last.
+/// Does it with the fast path as compiled for each instruction set that this processor has, the best one last.
 template <class Action>
 void under_each_instruction_set(const Action& action) {
   for (const auto* kernels : detail::kinematic::available()) {

@@ -1,3 +1,3 @@
 #define SIGMAX_LANE_BYTES 16
 #define SIGMAX_KERNELS baseline_kernels
-#include "kernels/text.hpp"
+#include "kernels/kalman_kernels.hpp"

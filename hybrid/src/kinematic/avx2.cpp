@@ -1,3 +1,3 @@
 #define SIGMAX_LANE_BYTES 32
 #define SIGMAX_INSTRUCTIONS avx2
-#include "kinematic/instructions.hpp"
+#include "kinematic/instantiate.hpp"

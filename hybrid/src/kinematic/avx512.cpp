@@ -1,3 +1,3 @@
 #define SIGMAX_LANE_BYTES 64
 #define SIGMAX_INSTRUCTIONS avx512
-#include "kinematic/instructions.hpp"
+#include "kinematic/instantiate.hpp"

@@ -1,3 +1,3 @@
 #define SIGMAX_LANE_BYTES 16
 #define SIGMAX_INSTRUCTIONS baseline
-#include "kinematic/instructions.hpp"
+#include "kinematic/instantiate.hpp"

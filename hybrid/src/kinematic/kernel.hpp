@@ -1,10 +1,9 @@
-/// The four steps of an interacting filter for motions along independent axes. `V` is a number of one track, or of
-/// several: the text is the same. Included once for each instruction set; everything is private to the file that
-/// includes it, since an inline function compiled for one processor must not serve another.
+/// The four steps of an interacting filter for motions along independent axes. The layout L says what a number is: one
+/// of several tracks, or of one; the text is the same. Included once for each instruction set; everything is private to
+/// the file that includes it, since an inline function compiled for one processor must not serve another.
 
-#include <sigmax/hybrid/kinematic_plan.hpp>
-
-#include "kinematic/lanes.hpp"
+#include "kinematic/kernels.hpp"
+#include "kinematic/layouts.hpp"
 
 /// Loops over the components of an estimate are unrolled, as their indices are to be constants; not where each access
 /// is checked, which would take minutes to compile.
@@ -16,6 +15,7 @@
 #define SIGMAX_UNROLL _Pragma("clang loop unroll(full)")
 #endif
 #define SIGMAX_APART __attribute__((noinline))
+#define SIGMAX_WITHIN inline __attribute__((always_inline))
 
 namespace sigmax::detail::kinematic {
 namespace {
@@ -36,112 +36,118 @@ struct Precision<float> {
 };
 template <class V>
 using PrecisionOf = Precision<NumberOf<V>>;
+constexpr int max_modes = StepPlan::max_modes;
 
-/// Where the entry (i, k), k ≤ i, of a symmetric matrix of N columns is: one track has the whole matrix, several have
-/// the triangle.
-template <class V, int N>
-constexpr int at(int i, int k) {
-  return Lane<V>::count == 1 ? i * N + k : triangle(i) + k;
-}
-
-/// An estimate of N components in hand, of which the lower triangle is of value. Nothing else is where it is.
-template <class V, int N>
+/// An estimate of so many derivatives, where it is written; also the one of a model that is stored.
+template <class L, int order>
 struct Estimate {
-  V* __restrict x;
-  V* __restrict P;
+  static constexpr int derivatives = order;
+  typename L::OfAxes* __restrict x;
+  typename L::OfPairs* __restrict P;
 
-  V& operator()(int i, int k) const { return i < k ? P[at<V, N>(k, i)] : P[at<V, N>(i, k)]; }
+  typename L::OfAxes& mean(int a, int u) const { return x[a * L::axis_vectors + u]; }
+  typename L::OfPairs& operator()(int a, int b, int k) const { return P[L::place(a, b, k)]; }
+};
+template <class L>
+struct Stored {
+  const NumberOf<typename L::Number>* x;
+  const NumberOf<typename L::Number>* P;
+
+  typename L::OfAxes mean(int a, int u) const { return read<typename L::OfAxes>(x, a * L::axis_vectors + u); }
+  typename L::OfPairs operator()(int a, int b, int k) const { return read<typename L::OfPairs>(P, L::place(a, b, k)); }
 };
 
-template <int Number>
-struct Constant {
-  constexpr operator int() const { return Number; }
-};
-
-/// action(N), N a constant: the components of a model of the order along A axes.
-template <int A, class Action>
-inline void with_size(int order, const Action& action) {
+/// action(order), a constant.
+template <class Action>
+inline void with_order(int order, const Action& action) {
   if (order == 2)
-    action(Constant<2 * A>{});
+    action(Constant<2>{});
   else
-    action(Constant<3 * A>{});
+    action(Constant<3>{});
 }
 
-/// Index of the greatest weight, as a number; see sigmax::detail::select.
+/// Index of the greatest weight, as a number; by logarithms it is the same.
 template <class V>
-V winner(int modes, const V* weight, V current, Tie tie) {
-  V greatest = weight[0];
-  for (int i = 1; i < modes; ++i) greatest = select<V>(weight[i] > greatest, weight[i], greatest);
-  const V least = greatest * static_cast<NumberOf<V>>(1.0 - tie_tolerance);
-  V result{};
-  for (int i = 0; i < modes; ++i) {
-    const int place = tie == Tie::last ? i : modes - 1 - i;
-    result = select<V>(weight[place] >= least, all<V>(place), result);
+SIGMAX_WITHIN V winner(int modes, const V* weights, V current, Tie tie) {
+  return detail::select(
+      static_cast<std::size_t>(modes), [=](std::size_t i) { return weights[i]; },
+      [](V weight, V greatest) { return weight >= greatest * static_cast<NumberOf<V>>(1.0 - tie_tolerance); },
+      [](std::size_t i) { return all<V>(static_cast<double>(i)); }, current, tie);
+}
+
+/// One track, or several, in a block: of so many modes, or of those of the plan.
+template <class L, int Modes>
+struct Track {
+  using Number = typename L::Number;
+
+  const StepPlan& plan;
+  const int modes = Modes ? Modes : plan.modes;
+  Stored<L> estimate[max_modes];
+  Number weight[max_modes];
+  Number most_likely;
+  NumberOf<Number> lent = plan.augmentation == StateAugmentation::unbiased ? 1 : 0,
+                   lent_variance = plan.augmentation == StateAugmentation::zero ? 0 : 1;
+
+  Track(const StepPlan& what, const NumberOf<Number>* block) : plan(what) {
+    for (int j = 0; j < modes; ++j) {
+      estimate[j] = {block, block + L::mean_size(plan.order_of(j))};
+      block += L::size(plan.order_of(j));
+    }
+    for (int j = 0; j < modes; ++j) weight[j] = read<Number>(block, j);
+    most_likely = read<Number>(block, modes);
   }
-  if (tie == Tie::stay)
-    for (int i = 0; i < modes; ++i)
-      result = select<V>((current == all<V>(i)) & (weight[i] >= least), all<V>(i), result);
-  return result;
-}
+};
 
-/// action(u, v) for each pair of axes, v ≤ u, constants.
-template <int A, class Action>
-inline void for_pairs(const Action& action) {
-  action(Constant<0>{}, Constant<0>{});
-  if constexpr (A > 1) action(Constant<1>{}, Constant<0>{}), action(Constant<1>{}, Constant<1>{});
-  if constexpr (A > 2)
-    action(Constant<2>{}, Constant<0>{}), action(Constant<2>{}, Constant<1>{}), action(Constant<2>{}, Constant<2>{});
-}
-
-/// A mixture of the estimates of models as one of N components along A axes: its mean, and how its covariance is made
-/// of those of the models from `first` to `last` and of differences of means. A pair of axes at a time, so that what
-/// is in hand fits into registers.
-template <class V, int A, int N>
+/// A mixture of the estimates of models as one of so many derivatives: its mean, and how its covariance is made of
+/// those of the models from `first` to `last` and of differences of means. A pair of axes at a time, so that what is in
+/// hand fits into registers.
+template <class L, int order, int Modes>
 struct Mixture {
-  static constexpr int order = N / A;
+  using Number = typename L::Number;
+  using OfAxes = typename L::OfAxes;
+  using OfPairs = typename L::OfPairs;
+  static constexpr int size = order * L::axis_vectors;
 
-  const Plan& plan;
-  const NumberOf<V>* const* mean;  ///< where the estimate of each model is stored
-  const NumberOf<V>* const* covariance;
-  const NumberOf<V>* lender_mean;  ///< of an estimate of all components; a part has so many times what it lacks
-  const NumberOf<V>* lender_covariance;
-  NumberOf<V> lent = plan.augmentation == StateAugmentation::unbiased ? 1 : 0,
-              lent_variance = plan.augmentation == StateAugmentation::zero ? 0 : 1;
+  const StepPlan& plan;
+  const Stored<L>* const models;
+  const Stored<L>& lender;  ///< an estimate of all derivatives; a part has so many times what it lacks
+  const NumberOf<Number> lent, lent_variance;
 
-  V x[N];
-  int first = 0, last = plan.modes;
-  V weight[max_modes];
+  OfAxes x[size];
+  const int modes = Modes ? Modes : plan.modes;
+  int first = 0, last = modes;
+  Number weight[max_modes];
   int spreads = 0;
-  V difference[max_modes][N], scaled[max_modes][N];
+  OfAxes difference[max_modes][size], scaled[max_modes][size];
 
-  Mixture(const Plan& what, const NumberOf<V>* const* means, const NumberOf<V>* const* covariances, int lender)
-      : plan(what),
-        mean(means),
-        covariance(covariances),
-        lender_mean(means[lender]),
-        lender_covariance(covariances[lender]) {}
+  Mixture(const Track<L, Modes>& track, int lending)
+      : plan(track.plan),
+        models(track.estimate),
+        lender(models[lending]),
+        lent(track.lent),
+        lent_variance(track.lent_variance) {}
 
-  /// The i-th component of the mean of model l, which has n.
+  /// Component i of the mean of model l, which has the first n derivatives.
   template <int n>
-  V mean_of(int l, int i) const {
-    return i < n ? read<V>(mean[l], i) : lent * read<V>(lender_mean, i);
+  OfAxes mean_of(int l, int i) const {
+    return i < n * L::axis_vectors ? read<OfAxes>(models[l].x, i) : lent * read<OfAxes>(lender.x, i);
   }
 
   /// (58), (59) or (67), (68), one part after the other: a pair with the weights u and w has the spread
   /// u w/(u + w) (x − y)(x − y)ᵀ. The weights sum to one over the scale.
-  void match_moments(const V* weights, V scale) {
-    V before{};
-    for (int l = 0; l < plan.modes; ++l) {
-      const V w = weights[l], total = before + w;
+  void match_moments(const Number* weights, Number scale) {
+    Number before{};
+    for (int l = 0; l < modes; ++l) {
+      const Number w = weights[l], total = before + w;
       weight[l] = w * scale;
-      with_size<A>(plan.order[l], [&](auto n) {
+      with_order(plan.order_of(l), [&](auto n) {
         if (l == 0) {
-          SIGMAX_UNROLL for (int i = 0; i < N; ++i) x[i] = mean_of<n>(l, i);
+          SIGMAX_UNROLL for (int i = 0; i < size; ++i) x[i] = mean_of<n>(l, i);
           return;
         }
-        const V share = select<V>(total > V{}, w / total, V{}), spread = before * scale * share;
-        SIGMAX_UNROLL for (int i = 0; i < N; ++i) {
-          const V apart = difference[spreads][i] = mean_of<n>(l, i) - x[i];
+        const Number share = select(total > Number{}, w / total, Number{}), spread = before * scale * share;
+        SIGMAX_UNROLL for (int i = 0; i < size; ++i) {
+          const OfAxes apart = difference[spreads][i] = mean_of<n>(l, i) - x[i];
           scaled[spreads][i] = spread * apart;
           x[i] += share * apart;
         }
@@ -151,87 +157,73 @@ struct Mixture {
     }
   }
 
-  /// Writes the covariance as `move` changes it, move(u, v, what it is along these axes), v ≤ u.
-  template <class Move>
-  void write(Estimate<V, N> P, const Move& move) const {
-    for_pairs<A>([&](auto u, auto v) {
-      V M[order][order];
-      read_pair<u, v>(M);
-      move(u, v, M);
-      SIGMAX_UNROLL for (int a = 0; a < order; ++a) SIGMAX_UNROLL for (int b = 0; b < (u == v ? a + 1 : order); ++b)
-          P(a * A + u, b * A + v) = M[a][b];
-    });
+  /// (55), (56): that of the model l that is selected, in each lane.
+  void select_one(Number selected) {
+    SIGMAX_UNROLL for (int i = 0; i < size; ++i) x[i] = read<OfAxes>(lender.x, i);
+    for (int l = 0; l < modes; ++l) {
+      const auto its = selected == all<Number>(l);
+      weight[l] = select(its, all<Number>(1.0), Number{});
+      with_order(plan.order_of(l), [&](auto n) {
+        SIGMAX_UNROLL for (int i = 0; i < size; ++i) x[i] = select(its, mean_of<n>(l, i), x[i]);
+      });
+    }
   }
 
-  template <int u, int v>
-  void read_pair(V (&M)[order][order]) const {
-    SIGMAX_UNROLL for (int a = 0; a < order; ++a) SIGMAX_UNROLL for (int b = 0; b < order; ++b) M[a][b] = V{};
+  /// The covariance along pair k.
+  void read_pair(int k, OfPairs (&M)[order][order]) const {
+    SIGMAX_UNROLL for (int a = 0; a < order; ++a) SIGMAX_UNROLL for (int b = 0; b < order; ++b) M[a][b] = OfPairs{};
     for (int l = first; l < last; ++l)
-      with_size<A>(plan.order[l], [&](auto n) {
-        const V w = weight[l];
+      with_order(plan.order_of(l), [&](auto n) {
+        const Number w = weight[l];
         SIGMAX_UNROLL for (int a = 0; a < order; ++a) SIGMAX_UNROLL for (int b = 0; b < order; ++b) {
-          const int i = a * A + u, k = b * A + v, high = i < k ? k : i, low = i < k ? i : k;
-          if (high < n)
-            M[a][b] += w * read<V>(covariance[l], at<V, n>(high, low));
-          else if (low >= n)
-            M[a][b] += w * (i == k ? lent_variance : lent) * read<V>(lender_covariance, at<V, N>(high, low));
+          const auto share = lent + (a == b && L::has_diagonal(k) ? lent_variance - lent : 0) * L::diagonal();
+          if (a < n && b < n) M[a][b] += w * models[l](a, b, k);
+          if (a >= n && b >= n) M[a][b] += w * share * lender(a, b, k);
         }
       });
     for (int s = 0; s < spreads; ++s)
-      SIGMAX_UNROLL for (int a = 0; a < order; ++a) SIGMAX_UNROLL for (int b = 0; b < order; ++b) {
-        const int i = a * A + u, k = b * A + v;
-        M[a][b] += scaled[s][i < k ? k : i] * difference[s][i < k ? i : k];
-      }
+      SIGMAX_UNROLL for (int a = 0; a < order; ++a) SIGMAX_UNROLL for (int b = 0; b < order; ++b) M[a][b] +=
+          L::of_first(scaled[s] + a * L::axis_vectors, k) * L::of_second(difference[s] + b * L::axis_vectors, k);
   }
 };
 
-/// Derivative `to` += f · the next one, along both axes of a pair.
-template <int to, class V, int order>
-inline void shear(NumberOf<V> f, V (&M)[order][order]) {
-  SIGMAX_UNROLL for (int b = 0; b < order; ++b) M[to][b] += f * M[to + 1][b];
-  SIGMAX_UNROLL for (int a = 0; a < order; ++a) M[a][to] += f * M[a][to + 1];
-}
-
-/// (27), (28) of a mixture, with F_s ⊗ I as shears p += α v, v += F₁₂ a, p += β v, and a scale of the highest
-/// derivative; each variance with the rounding of the terms of F P Fᵀ, before they may cancel.
-template <class V, int A, int N>
-SIGMAX_APART void predict(const Law& law, const Mixture<V, A, N>& mixture, Estimate<V, N> P) {
-  using Number = NumberOf<V>;
-  const auto number = [](double value) { return static_cast<Number>(value); };
-  constexpr int order = N / A, last = order - 1;
-  const Number shears[]{number(law.shears[0]), number(law.shears[1]), number(law.shears[2])};
-  const Number scale = number(law.scale);
-  mixture.write(P, [&](auto u, auto v, V(&M)[order][order]) {
-    V terms[order];
+/// (27), (28) of a mixture, F_s and Q_s along each axis, of which F_s scales the last derivative alone; each variance
+/// with the rounding of the terms of F P Fᵀ, before they may cancel.
+template <class L, int order, int Modes>
+SIGMAX_WITHIN void predict(const AxisLaw& law, const Mixture<L, order, Modes>& mixture, Estimate<L, order> P) {
+  using Number = NumberOf<typename L::Number>;
+  using OfPairs = typename L::OfPairs;
+  constexpr int last = order - 1;
+  Number F[order][order], Q[order][order];
+  SIGMAX_UNROLL for (int a = 0; a < order; ++a) SIGMAX_UNROLL for (int b = 0; b < order; ++b) {
+    F[a][b] = static_cast<Number>(law.F[a + b * order]);
+    Q[a][b] = static_cast<Number>(law.Q[a + b * order]);
+  }
+  SIGMAX_UNROLL for (int a = 0; a < order; ++a) SIGMAX_UNROLL for (int u = 0; u < L::axis_vectors; ++u) {
+    typename L::OfAxes sum = F[a][a] * mixture.x[a * L::axis_vectors + u] + L::from(law.input + a * L::axes, u);
+    SIGMAX_UNROLL for (int b = a + 1; b < order; ++b) sum += F[a][b] * mixture.x[b * L::axis_vectors + u];
+    P.mean(a, u) = sum;
+  }
+  for_each<L::pair_vectors>([&](auto k) {
+    OfPairs M[order][order], noise[order];
+    mixture.read_pair(k, M);
     SIGMAX_UNROLL for (int a = 0; a < order; ++a) {
-      terms[a] = M[a][a];
-      SIGMAX_UNROLL for (int b = 0; b < a; ++b) terms[b] +=
-          number(law.squared[static_cast<std::size_t>(triangle(a) + b)]) * M[a][a];
+      noise[a] = OfPairs{};
+      SIGMAX_UNROLL for (int c = a; c < order; ++c) noise[a] += F[a][c] * F[a][c] * M[c][c];
+      noise[a] = Q[a][a] + static_cast<Number>(PrecisionOf<typename L::Number>::rounding) * noise[a];
     }
-    shear<0>(shears[0], M);
-    if constexpr (order > 2) {
-      shear<1>(shears[1], M);
-      shear<0>(shears[2], M);
+    SIGMAX_UNROLL for (int a = 0; a < order; ++a) SIGMAX_UNROLL for (int c = a + 1; c < order; ++c)
+        SIGMAX_UNROLL for (int b = 0; b < order; ++b) M[a][b] += F[a][c] * M[c][b];
+    SIGMAX_UNROLL for (int b = 0; b < order; ++b) SIGMAX_UNROLL for (int c = b + 1; c < order; ++c)
+        SIGMAX_UNROLL for (int a = 0; a < order; ++a) M[a][b] += F[b][c] * M[a][c];
+    if (F[last][last] != 1) {
+      SIGMAX_UNROLL for (int b = 0; b < order; ++b) M[last][b] *= F[last][last];
+      SIGMAX_UNROLL for (int a = 0; a < order; ++a) M[a][last] *= F[last][last];
     }
-    if (law.scale != 1.0) {
-      SIGMAX_UNROLL for (int b = 0; b < order; ++b) M[last][b] *= scale;
-      SIGMAX_UNROLL for (int a = 0; a < order; ++a) M[a][last] *= scale;
-    }
-    if constexpr (u == v) {
-      V x[order];
-      SIGMAX_UNROLL for (int a = 0; a < order; ++a) {
-        x[a] = mixture.x[a * A + u];
-        SIGMAX_UNROLL for (int b = 0; b <= a; ++b) M[a][b] += number(law.Q[static_cast<std::size_t>(triangle(a) + b)]);
-        M[a][a] += number(PrecisionOf<V>::rounding) * terms[a];
-      }
-      x[0] += shears[0] * x[1];
-      if constexpr (order > 2) {
-        x[1] += shears[1] * x[2];
-        x[0] += shears[2] * x[1];
-      }
-      x[last] *= scale;
-      SIGMAX_UNROLL for (int a = 0; a < order; ++a) P.x[a * A + u] =
-          x[a] + number(law.u[static_cast<std::size_t>(a * A + u)]);
+    SIGMAX_UNROLL for (int a = 0; a < order; ++a) SIGMAX_UNROLL for (int b = 0; b < order; ++b) {
+      if (L::is_mirrored(a, b, k)) continue;
+      if (L::has_diagonal(k)) M[a][b] += (a == b ? noise[a] : OfPairs{} + Q[a][b]) * L::diagonal();
+      P(a, b, k) = M[a][b];
     }
   });
 }
@@ -259,191 +251,222 @@ struct Innovated {
 };
 
 /// The innovation of a prediction, (29), (30).
-template <class V, int A, int N>
-inline void innovate(const Measured<V, A>& measured, Estimate<V, N> P, Innovated<V, A>& told) {
+template <class L, int order, class V, int A>
+inline void innovate(const Measured<V, A>& measured, Estimate<L, order> P, Innovated<V, A>& innovated) {
   const V one = all<V>(1.0);
-  V L[A][A], inverse[A], whitened[A];
+  V factor[A][A], inverse[A], whitened[A];
   V condition = one, precision = one, squared_distance{}, least = one;
   SIGMAX_UNROLL for (int i = 0; i < A; ++i) {
-    told.residual[i] = whitened[i] = measured.z[i] - P.x[i];
-    SIGMAX_UNROLL for (int k = 0; k <= i; ++k) L[i][k] = told.S[triangle(i) + k] = P(i, k) + measured.R[i + k * A];
-    V pivot = L[i][i];
+    innovated.residual[i] = whitened[i] = measured.z[i] - L::at(P.x, i);
+    SIGMAX_UNROLL for (int k = 0; k <= i; ++k) factor[i][k] = innovated.S[triangle(i) + k] =
+        L::at(P.P, triangle(i) + k) + measured.R[i + k * A];
+    V pivot = factor[i][i];
     SIGMAX_UNROLL for (int k = 0; k < i; ++k) {
-      V rest = L[i][k];
-      SIGMAX_UNROLL for (int m = 0; m < k; ++m) rest -= L[i][m] * L[m][k];
-      L[i][k] = rest;
+      V rest = factor[i][k];
+      SIGMAX_UNROLL for (int m = 0; m < k; ++m) rest -= factor[i][m] * factor[m][k];
+      factor[i][k] = rest;
       rest *= inverse[k];
-      pivot -= L[i][k] * rest;
-      told.L[k][i] = L[k][i] = rest;  // L itself above, L D below
+      pivot -= factor[i][k] * rest;
+      innovated.L[k][i] = factor[k][i] = rest;  // L itself above, L D below
       whitened[i] -= rest * whitened[k];
     }
-    told.inverse[i] = inverse[i] = one / pivot;
-    told.whitened[i] = whitened[i];
-    least = select<V>(pivot < least, pivot, least);
-    condition *= L[i][i] * inverse[i];
+    innovated.inverse[i] = inverse[i] = one / pivot;
+    innovated.whitened[i] = whitened[i];
+    least = lesser(pivot, least);
+    condition *= factor[i][i] * inverse[i];
     precision *= inverse[i];
     squared_distance += whitened[i] * whitened[i] * inverse[i];
   }
-  told.squared_distance = squared_distance;
-  told.precision = precision;
-  told.condition = condition;
-  told.least = least;
+  innovated.squared_distance = squared_distance;
+  innovated.precision = precision;
+  innovated.condition = condition;
+  innovated.least = least;
 }
 
 /// (31), (32) with Y = P Hᵀ L⁻ᵀ: x += Y D⁻¹ L⁻¹ ν, P −= Y D⁻¹ Yᵀ, to which the rounding of the prior is added;
 /// docs/robustness.md has the bound. Returns where that is not too much.
-template <class V, int A, int N>
-SIGMAX_APART Mask<V> update(const Innovated<V, A>& told, Mask<V> there, Estimate<V, N> P) {
-  using Number = NumberOf<V>;
-  V Y[A][N], Z[A][N];
+template <class L, int order, class V, int A>
+SIGMAX_WITHIN Mask<V> update(const Innovated<V, A>& innovated, Mask<V> there, Estimate<L, order> P) {
+  using OfAxes = typename L::OfAxes;
+  using OfPairs = typename L::OfPairs;
+  constexpr int along = L::axis_vectors;
+  OfAxes Y[A][order * along], Z[A][order * along];
   SIGMAX_UNROLL for (int m = 0; m < A; ++m) {
-    const V weight = select<V>(there, told.inverse[m], V{});
-    SIGMAX_UNROLL for (int i = 0; i < N; ++i) {
-      V rest = P(i, m);
-      SIGMAX_UNROLL for (int k = 0; k < m; ++k) rest -= told.L[k][m] * Y[k][i];
+    const V weight = select(there, innovated.inverse[m], V{});
+    SIGMAX_UNROLL for (int i = 0; i < order * along; ++i) {
+      OfAxes rest = L::with_position(P, i / along, i % along, m);
+      SIGMAX_UNROLL for (int k = 0; k < m; ++k) rest -= innovated.L[k][m] * Y[k][i];
       Y[m][i] = rest;
       Z[m][i] = weight * rest;
-      P.x[i] += told.whitened[m] * Z[m][i];
+      P.x[i] += innovated.whitened[m] * Z[m][i];
     }
   }
-  V least = told.least;
-  const V lost = select<V>(there, told.condition * static_cast<Number>(PrecisionOf<V>::rounding), V{});
-  SIGMAX_UNROLL for (int i = 0; i < N; ++i) {
-    const V loss = lost * P(i, i);
-    SIGMAX_UNROLL for (int k = 0; k <= i; ++k) {
-      V rest = P(i, k);
-      SIGMAX_UNROLL for (int m = 0; m < A; ++m) rest -= Z[m][i] * Y[m][k];
-      P(i, k) = rest;
+  OfPairs least = OfPairs{} + static_cast<NumberOf<V>>(1);
+  const V lost = select(there, innovated.condition * static_cast<NumberOf<V>>(PrecisionOf<V>::rounding), V{});
+  for_each<L::pair_vectors>([&](auto k) {
+    SIGMAX_UNROLL for (int a = 0; a < order; ++a) SIGMAX_UNROLL for (int b = 0; b < order; ++b) {
+      if (L::is_mirrored(a, b, k)) continue;
+      const OfPairs before = P(a, b, k);
+      OfPairs rest = before;
+      SIGMAX_UNROLL for (int m = 0; m < A; ++m) rest -=
+          L::of_first(Z[m] + a * along, k) * L::of_second(Y[m] + b * along, k);
+      if (a == b && L::has_diagonal(k)) {
+        const OfPairs loss = lost * L::diagonal() * before;
+        least = lesser(static_cast<NumberOf<V>>(PrecisionOf<V>::greatest_loss) * rest - loss, least);
+        rest += loss;
+      }
+      P(a, b, k) = rest;
     }
-    const V left = static_cast<Number>(PrecisionOf<V>::greatest_loss) * P(i, i) - loss;
-    least = select<V>(left < least, left, least);
-    P(i, i) += loss;
-  }
-  return (least >= V{}) | (there == Mask<V>{});
+  });
+  const Mask<V> positive = lesser(L::least_of_diagonal(least), innovated.least) >= V{}, missing = there == Mask<V>{};
+  return positive | missing;
 }
+
+/// @{
+/// The same for several tracks, whose numbers would not fit into registers beside others.
+template <class L, int order, int Modes>
+SIGMAX_APART void predict_apart(const AxisLaw& law, const Mixture<L, order, Modes>& mixture, Estimate<L, order> P) {
+  predict(law, mixture, P);
+}
+template <class L, int order, class V, int A>
+SIGMAX_APART Mask<V> update_apart(const Innovated<V, A>& innovated, Mask<V> there, Estimate<L, order> P) {
+  return update(innovated, there, P);
+}
+/// @}
 
 /// Where an estimate is finite, and no variance negative.
-template <class V, int N>
-inline Mask<V> is_sound(Estimate<V, N> P) {
-  V least = P(0, 0), sum{};
-  SIGMAX_UNROLL for (int i = 0; i < N; ++i) {
-    const V variance = P(i, i);
-    least = select<V>(variance < least, variance, least);
-    sum += variance + P.x[i] * P.x[i];
+template <class L, int order>
+inline auto is_sound(Estimate<L, order> P) {
+  using Number = typename L::Number;
+  typename L::OfAxes squares{};
+  typename L::OfPairs least{}, sum{};
+  SIGMAX_UNROLL for (int a = 0; a < order; ++a) {
+    SIGMAX_UNROLL for (int u = 0; u < L::axis_vectors; ++u) squares += P.mean(a, u) * P.mean(a, u);
+    for_each<L::pair_vectors>([&](auto k) {
+      if (!L::has_diagonal(k)) return;
+      sum += P(a, a, k);
+      least = lesser(P(a, a, k), least);
+    });
   }
-  return (least >= V{}) & (sum < all<V>(PrecisionOf<V>::greatest));
+  const Mask<Number> positive = L::least_of_diagonal(least) >= Number{};
+  const Mask<Number> finite =
+      L::sum_of_diagonal(sum) + L::sum_of_axes(squares) < all<Number>(PrecisionOf<Number>::greatest);
+  return positive & finite;
 }
 
-/// One step of one or several tracks, from what is stored.
-template <class V, int A, bool selects>
-struct Step {
-  const Plan& plan;
-  const NumberOf<V>* mean[max_modes];  ///< where the estimate of each model is stored
-  const NumberOf<V>* covariance[max_modes];
-  V weight[max_modes];
-  V most_likely;
+/// One step of so many modes, or of those of the plan, from one block into another.
+template <class L, class Algebra, int Modes = 0>
+struct Step : Track<L, Modes> {
+  using V = typename L::Number;
+  using Base = NumberOf<V>;
+  using Track<L, Modes>::plan;
+  using Track<L, Modes>::modes;
+  static constexpr bool selects = SelectiveAlgebra<Algebra>;
+  static constexpr bool one_track = Lane<V>::count == 1;
+  static constexpr int axes = L::axes;
 
-  V* next_mean[max_modes];  ///< where the next one goes
-  V* next_covariance[max_modes];
+  Base* next;
   V prior[max_modes];  ///< not normalised, but for their sum, or the greatest
   V total{};
-  V posterior[max_modes]{};
+  V posterior[max_modes];
   V next_most_likely;
-  V* predicted[max_modes];  ///< where the mean before the measurement goes, of one track
-  Innovated<V, A> innovated[max_modes];
+  Innovated<V, axes> innovated[max_modes];
 
-  explicit Step(const Plan& what) : plan(what) {}
+  Step(const StepPlan& what, const Base* from, Base* to) : Track<L, Modes>(what, from), next(to) {}
 
   /// (52), (54)–(57) or (58), (59): the mixed start of mode j, into which `coming` moves from each of the modes.
-  template <int N>
-  Mixture<V, A, N> mixed(int j, const V* coming) const {
-    Mixture<V, A, N> result(plan, mean, covariance, j);
+  template <int order>
+  Mixture<L, order, Modes> mixed(int j, const V* coming) const {
+    Mixture<L, order, Modes> result(*this, j);
     if constexpr (selects) {
-      const V selected = winner<V>(plan.modes, coming, all<V>(j), plan.mixing_tie), none{}, one = all<V>(1.0);
-      SIGMAX_UNROLL for (int i = 0; i < N; ++i) result.x[i] = read<V>(mean[j], i);
-      for (int l = 0; l < plan.modes; ++l) {
-        const Mask<V> its = selected == all<V>(l);
-        result.weight[l] = select<V>(its, one, none);
-        if (l == j) continue;
-        with_size<A>(plan.order[l], [&](auto n) {
-          SIGMAX_UNROLL for (int i = 0; i < N; ++i) result.x[i] =
-              select<V>(its, result.template mean_of<n>(l, i), result.x[i]);
-        });
-      }
+      result.select_one(winner(modes, coming, all<V>(j), plan.mixing_tie));
       if (plan.mixed_covariance == MixedCovariance::selected) return result;
       result.first = j;
       result.last = j + 1;
-      result.weight[j] = one;
+      result.weight[j] = all<V>(1.0);
       result.spreads = plan.mixed_covariance == MixedCovariance::own_recentred ? 1 : 0;
-      SIGMAX_UNROLL for (int i = 0; i < N; ++i) result.difference[0][i] = result.scaled[0][i] =
-          result.x[i] - read<V>(mean[j], i);
+      SIGMAX_UNROLL for (int i = 0; i < result.size; ++i) result.difference[0][i] = result.scaled[0][i] =
+          result.x[i] - read<typename L::OfAxes>(this->estimate[j].x, i);
     } else {
       result.match_moments(coming, all<V>(1.0) / prior[j]);
     }
     return result;
   }
 
-  /// action(j, the estimate being made) for each mode.
+  /// action(j, the estimate being made) for each mode; returns where the weights go.
   template <class Action>
-  void for_modes(const Action& action) const {
-    for (int j = 0; j < plan.modes; ++j)
-      with_size<A>(plan.order[j], [&](auto N) { action(j, Estimate<V, N>{next_mean[j], next_covariance[j]}); });
+  Base* for_modes(const Action& action) const {
+    Base* to = next;
+    for (int j = 0; j < modes; ++j)
+      with_order(plan.order_of(j), [&](auto order) {
+        action(j, Estimate<L, order>{reinterpret_cast<typename L::OfAxes*>(to),
+                                     reinterpret_cast<typename L::OfPairs*>(to + L::mean_size(order))});
+        to += L::size(order);
+      });
+    return to;
   }
 
   /// Returns where it is as good as the general step. What waits for few numbers stands before what has many to do, so
-  /// that the processor does both at once: the weights before the estimates.
-  Mask<V> take(const Measured<V, A>* measured) {
-    const int modes = plan.modes;
-    const auto plus = [](V sum, V term) { return selects ? select<V>(term > sum, term, sum) : sum + term; };
+  /// that the processor does both at once: the weights before the estimates. `predicted(j, its estimate)` and
+  /// `weighed()` are called when that is done.
+  template <class Predicted, class Weighed>
+  Mask<V> take(const Measured<V, axes>* measured, const Predicted& predicted, const Weighed& weighed) {
+    const auto plus = [](V sum, V term) { return selects ? select(term > sum, term, sum) : sum + term; };
     const V one = all<V>(1.0), least = all<V>(PrecisionOf<V>::least_weight);
     Mask<V> good = one > V{};
 
-    for_modes([&]<int N>(int j, Estimate<V, N> own) {
+    for_modes([&]<int order>(int j, Estimate<L, order> own) {
       // Step 1: the prior of the mode, (51) or (53), and the mixed start.
       V coming[max_modes];
       prior[j] = V{};
       for (int i = 0; i < modes; ++i) {
-        coming[i] = weight[i] * static_cast<NumberOf<V>>(plan.transition[static_cast<std::size_t>(i * modes + j)]);
+        coming[i] = this->weight[i] * static_cast<Base>(plan.transition[i * modes + j]);
         prior[j] = plus(prior[j], coming[i]);
       }
       good = good & (prior[j] > least);
+      for (int a = 0; a + 1 < order; ++a) good = good & (all<V>(plan.law[j].F[a + a * order]) == one);
       total = plus(total, prior[j]);
-      const auto start = mixed<N>(j, coming);
 
       // Step 2: the model predicts, (60), and updates, (61), see below.
-      predict(plan.law[j], start, own);
-      for (int i = 0; i < N && Lane<V>::count == 1; ++i) predicted[j][i] = own.x[i];
+      if constexpr (one_track)
+        predict(plan.law[j], mixed<order>(j, coming), own);
+      else
+        predict_apart(plan.law[j], mixed<order>(j, coming), own);
+      predicted(j, own);
     });
 
     // Step 3: the weights of the modes, (62) or (63), and the most likely one, (64).
     const Mask<V> there = measured ? measured->there > V{} : V{} > V{};
     V nearest{};
-    if (measured)
-      for_modes([&](int j, auto own) {
-        innovate(*measured, own, innovated[j]);
-        const V distance = innovated[j].squared_distance;
-        nearest = j == 0 ? distance : select<V>(distance < nearest, distance, nearest);
-      });
+    if (measured) for_modes([&](int j, auto own) { innovate(*measured, own, innovated[j]); });
+    for (int j = 0; measured && j < modes; ++j)
+      nearest = j == 0 ? innovated[j].squared_distance : lesser(innovated[j].squared_distance, nearest);
     V sum{};
     for (int j = 0; j < modes; ++j) {
       posterior[j] = prior[j];
       if (measured) {
-        const V fit = exponential<V>((nearest - innovated[j].squared_distance) * NumberOf<V>(0.5));
+        const V fit = exponential<V>((nearest - innovated[j].squared_distance) * Base(0.5));
         const V scale = plan.likelihood == LikelihoodForm::density ? root<V>(innovated[j].precision) : one;
-        posterior[j] *= select<V>(there, fit * scale, one);
+        posterior[j] *= select(there, fit * scale, one);
       }
       sum = plus(sum, posterior[j]);
     }
     for (int j = 0; j < modes; ++j) {
       posterior[j] /= sum;
+      if constexpr (one_track) posterior[j] = kept_weight(posterior[j]);
       good = good & (posterior[j] > least);
     }
-    next_most_likely = winner<V>(modes, posterior, most_likely, plan.output_tie);
+    next_most_likely = winner(modes, posterior, this->most_likely, plan.output_tie);
+    weighed();
 
-    for_modes([&](int j, auto own) {
-      if (measured) good = good & update(innovated[j], there, own);
+    Base* const weights = for_modes([&](int j, auto own) {
+      if (measured)
+        good = good & (one_track ? update(innovated[j], there, own) : update_apart(innovated[j], there, own));
       good = good & is_sound(own);
+      L::mirror(own);
     });
+    for (int j = 0; j < modes; ++j) write(weights, j, posterior[j]);
+    write(weights, modes, next_most_likely);
     return good;
   }
 };

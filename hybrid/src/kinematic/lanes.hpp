@@ -1,7 +1,8 @@
-/// What the kernel computes with: a number, or a vector of them, one for each of several tracks. Private to the file
-/// that includes it, which says how many bytes a vector has: SIGMAX_LANE_BYTES.
+/// What the kernel computes with: a number, or a vector of them. Private to the file that includes it, which says how
+/// many bytes a vector has: SIGMAX_LANE_BYTES.
 
 #include <type_traits>
+#include <utility>
 
 namespace sigmax::detail::kinematic {
 namespace {
@@ -41,10 +42,19 @@ inline V read(const NumberOf<V>* from, int t) {
   return lanes;
 }
 
-/// mask ? a : b, in each lane.
 template <class V>
-inline V select(Mask<V> mask, V a, V b) {
+inline void write(NumberOf<V>* to, int t, V lanes) {
+  __builtin_memcpy(to + t * Lane<V>::count, &lanes, sizeof(V));
+}
+
+/// mask ? a : b, in each lane; and the lesser of both.
+template <class V, class M>
+inline V select(M mask, V a, V b) {
   return mask ? a : b;
+}
+template <class V>
+inline V lesser(V a, V b) {
+  return a < b ? a : b;
 }
 
 /// A bit for each lane where the mask does not hold.
@@ -102,6 +112,31 @@ inline V exponential(V x) {
     return exponentials<13>(x, -708.0, 0x1.8p52, 0x1.62e42feep-1, 0x1.a39ef35793c76p-33, 52);
   else
     return exponentials<7>(x, -87.0F, 0x1.8p23F, 0x1.62e4p-1F, 0x1.7f7d1cp-20F, 23);
+}
+
+/// log(x) of normal x to an ulp or two: x = m 2^n with m within √2 of one, and log m = 2 artanh((m − 1)/(m + 1)).
+inline Doubles logarithm(Doubles x) {
+  using Bits = Mask<Doubles>;
+  constexpr double shift = 0x1.8p52;
+  constexpr long long least = 0x3fe6a09e667f3bcdLL, bias = 1024;  // √½
+  const Doubles shifts = all<Doubles>(shift);
+  Bits bits, exponent, shifted;
+  __builtin_memcpy(&bits, &x, sizeof(Doubles));
+  __builtin_memcpy(&shifted, &shifts, sizeof(Doubles));
+  exponent = ((bits - least + (bias << 52)) >> 52) - bias;
+  bits -= exponent << 52;
+  shifted += exponent;
+  Doubles m, n;
+  __builtin_memcpy(&m, &bits, sizeof(Doubles));
+  __builtin_memcpy(&n, &shifted, sizeof(Doubles));
+  n -= shift;
+  const Doubles s = (m - 1.0) / (m + 1.0), square = s * s;
+  Doubles even{}, odd{};
+  for (int k = 21; k > 1; k -= 4) {
+    odd = odd * (square * square) + 2.0 / k;
+    even = even * (square * square) + 2.0 / (k - 2);
+  }
+  return n * 0x1.62e42feep-1 + (s * 2.0 + (s * square * (even + square * odd) + n * 0x1.a39ef35793c76p-33));
 }
 
 }  // namespace

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 #include <type_traits>
 
@@ -18,20 +17,28 @@ enum class Tie {
 
 namespace detail {
 
-/// Index of the greatest weight, given as logarithms. `current` is the mode that `Tie::stay` favours.
+/// Index of the greatest weight of those that tie: `tied` compares one with the greatest, `index` makes a number of an
+/// index, and `current` is the one that `Tie::stay` favours. Of numbers, or of vectors with a number for each track.
+template <class Weight, class Tied, class Index, class V>
+[[gnu::always_inline]] inline V select(std::size_t modes, const Weight& weight, const Tied& tied, const Index& index,
+                                       V current, Tie tie) {
+  auto greatest = weight(0);
+  for (std::size_t i = 1; i < modes; ++i) greatest = weight(i) > greatest ? weight(i) : greatest;
+  V winner{};
+  for (std::size_t i = 0; i < modes; ++i) {
+    const std::size_t place = tie == Tie::last ? i : modes - 1 - i;
+    winner = tied(weight(place), greatest) ? index(place) : winner;
+  }
+  for (std::size_t i = 0; i < modes && tie == Tie::stay; ++i)
+    winner = current == index(i) ? (tied(weight(i), greatest) ? current : winner) : winner;
+  return winner;
+}
+
+/// The same of weights given as logarithms.
 template <class LogWeight>
 std::size_t select(std::size_t modes, const LogWeight& log_weight, std::size_t current, Tie tie) {
-  double greatest = log_weight(0);
-  for (std::size_t i = 1; i < modes; ++i) greatest = std::max(greatest, log_weight(i));
-  const auto tied = [&](std::size_t i) { return ties(log_weight(i), greatest); };
-  if (tie == Tie::stay && tied(current)) return current;
-  std::size_t winner = 0;
-  for (std::size_t i = 0; i < modes; ++i)
-    if (tied(i)) {
-      winner = i;
-      if (tie != Tie::last) break;
-    }
-  return winner;
+  return select(
+      modes, log_weight, ties, [](std::size_t i) { return i; }, current, tie);
 }
 
 }  // namespace detail

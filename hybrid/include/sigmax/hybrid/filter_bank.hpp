@@ -73,7 +73,7 @@ class TrackBank {
   bool lives(std::size_t track) const { return track < lives_.size() && lives_[track]; }
 
   /// An empty scan with room for the tracks that there are.
-  ScanOfTracks<Number> scan() const { return {blocks(), lanes_, general_.shortcut().axes()}; }
+  ScanOfTracks<Number> scan() const { return {blocks(), lanes_, general_.fast_path().axes()}; }
 
   void run(double dt, std::span<const ScanOfTracks<Number>> scans, std::size_t threads);
 
@@ -93,11 +93,11 @@ class TrackBank {
   void read(std::size_t track, State& state) const;
   void write(std::size_t track, const State& state);
   std::size_t add_started();
-  void run_blocks(double dt, std::span<const ScanOfTracks<Number>> scans, bool shortens, std::size_t first,
+  void run_blocks(double dt, std::span<const ScanOfTracks<Number>> scans, bool fast, std::size_t first,
                   std::size_t last, Filter& general);
   void step_generally(double dt, std::size_t track, const ScanOfTracks<Number>& scan, Filter& general);
 
-  Filter general_;  ///< takes the steps that are not short
+  Filter general_;  ///< takes the steps that are not fast
   std::size_t lanes_;
   std::size_t numbers_ = 0;  ///< of a track
   std::size_t lines_of_block_ = 0;
@@ -124,7 +124,7 @@ inline constexpr bool may_move_along_axes<AnyModel> = true;
 template <class Models>
 inline constexpr bool may_all_move_along_axes = false;
 template <class... Model>
-inline constexpr bool may_all_move_along_axes<std::tuple<Model...>> = sizeof...(Model) <= kinematic::max_modes &&
+inline constexpr bool may_all_move_along_axes<std::tuple<Model...>> = sizeof...(Model) <= StepPlan::max_modes &&
                                                                       (may_move_along_axes<Model> && ...);
 template <class Model>
 inline constexpr bool may_all_move_along_axes<std::vector<Model>> = may_move_along_axes<Model>;
@@ -142,7 +142,7 @@ inline constexpr bool may_all_move_along_axes<std::vector<Model>> = may_move_alo
 ///     bank.step(0.2, scan);   // who has no measurement misses
 ///     bank.estimate(track);
 ///
-/// Tracks are independent: adding or removing one changes no other. Where a step by the short form would not be good
+/// Tracks are independent: adding or removing one changes no other. Where a step by the fast path would not be good
 /// enough (docs/robustness.md), that track takes the general one.
 ///
 /// A `FilterBank<Models, Kind, float>` holds and computes numbers of single precision, which takes half the memory and

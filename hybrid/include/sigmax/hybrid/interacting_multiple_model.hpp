@@ -6,6 +6,7 @@
 #include <sigmax/core/update.hpp>
 #include <sigmax/estimation/discrete_white_noise.hpp>
 #include <sigmax/hybrid/bank_filter.hpp>
+#include <sigmax/hybrid/fast_path.hpp>
 
 namespace sigmax {
 
@@ -15,6 +16,7 @@ class InteractingFilter : public MultipleModelFilter<Kind> {
   using Filter = MultipleModelFilter<Kind>;
 
  public:
+  using State = HybridEstimate<Kind>;
   using Filter::belief;
   using Filter::estimates;
   using Filter::modes;
@@ -23,6 +25,15 @@ class InteractingFilter : public MultipleModelFilter<Kind> {
                     const Interaction<Kind>& interaction = {});
 
   std::unique_ptr<Filter> clone() const override { return std::make_unique<InteractingFilter>(*this); }
+
+  void output(const State& state, detail::View result) const override;
+  using Filter::output;
+
+  /// @{
+  /// For a bank of tracks: the fast path, made ready for steps of `dt` seconds; false if they must be general.
+  bool prepare_fast_path(double dt);
+  const detail::FastPath<Kind>& fast_path() const { return fast_path_; }
+  /// @}
 
  private:
   using Filter::innovations_;
@@ -33,13 +44,14 @@ class InteractingFilter : public MultipleModelFilter<Kind> {
 
   bool measure(double dt, const Seen& seen, double limit) override;
   void miss(double dt) override;
-  bool shortened(double dt, const Seen* seen, double limit) override;
+  bool try_fast_path(double dt, const Seen* seen);
   Estimates predicted() const override { return predicted_; }
   void mix(double dt);
 
   Estimates predicted_;  ///< before the measurement
   Inverse<Kind, Kind> move_in_;
   Likelihood<Kind> likelihood_;
+  detail::FastPath<Kind> fast_path_;
 };
 
 extern template class InteractingFilter<Random>;

@@ -14,7 +14,6 @@
 #include <sigmax/hybrid/hybrid_estimate.hpp>
 #include <sigmax/hybrid/interaction.hpp>
 #include <sigmax/hybrid/jump_markov_system.hpp>
-#include <sigmax/hybrid/kinematic_step.hpp>
 #include <sigmax/hybrid/mixture.hpp>
 
 namespace sigmax {
@@ -140,9 +139,6 @@ class MultipleModelFilter {
   /// What the smoother and other compiled code ask.
   /// The innovation of the predicted measurement in its own standard deviations, L⁻¹ν with S = LLᵀ; its size.
   int normalized_innovation(double* numbers) const;
-  /// The short step, made ready for `dt` seconds; false if it must be the general one.
-  bool shortens(double dt);
-  const detail::kinematic::Shortcut& shortcut() const { return shortcut_; }
   const detail::Correspondence* correspondences(std::size_t j) const { return components_.of_model(j); }
   /// The estimates that an augmentation borrows from: those of the receiving models, or what StateAugmentation::prior
   /// knows before.
@@ -163,8 +159,6 @@ class MultipleModelFilter {
   /// The four steps, with a measurement, if it passes the gate, or without one, into `next`.
   virtual bool measure(double dt, const Seen& seen, double limit) = 0;
   virtual void miss(double dt) = 0;
-  /// The same by a shorter way; false if there is none, and nothing has changed then.
-  virtual bool shortened(double, const Seen*, double) { return false; }
   /// What each mode predicted of the last measurement, with its weights.
   virtual Estimates predicted() const = 0;
   /// After a restart.
@@ -175,7 +169,13 @@ class MultipleModelFilter {
   /// What the step is writing: until `conclude`, all that is public shows the state before.
   State& next() { return states_[1 - current_]; }
 
-  /// Begins a step: the prior of the mode, (51) or (53), and the mode that it favours.
+  /// A number of the state, another one whenever it changes; the next state's is one more.
+  std::size_t version() const { return version_; }
+
+  /// What the models along independent axes do in a step of `dt` seconds.
+  const std::vector<detail::AxisLaw>& laws(double dt);
+
+  /// Begins a step: the prior of the mode, (51) or (53).
   void predict_mode(double dt);
 
   /// (60): an estimate of model j, moved on by the step that was begun. `result` may be `prior`.
@@ -201,7 +201,7 @@ class MultipleModelFilter {
     std::span<const double> log_weights;
     std::size_t most_likely;
   };
-  virtual Predictors predictors() const { return {innovations_, prior_.logs(), predicted_mode_}; }
+  virtual Predictors predictors() const;
 
   /// What an augmentation of the output borrows: for each component from the most likely model that has it.
   void output_receiver(const State& state, detail::View result) const;
@@ -224,20 +224,14 @@ class MultipleModelFilter {
   detail::Components components_;
   std::vector<AnyInnovation> innovations_;
   Belief<Kind> prior_;
-  std::vector<double> weights_;  ///< of the belief, linear
-  detail::kinematic::Shortcut shortcut_;
-  std::size_t predicted_mode_ = 0;
+  std::size_t mode_before_ = 0;  ///< the most likely one before the last step
 
  private:
   template <class Rule>
   void write_output(const Rule& rule, const State& state, detail::View result) const;
   AnyInnovation predicted_innovation() const;
   void forget_mode();
-  void read_weights(const Belief<Kind>& belief, double* weights) const {
-    for (std::size_t j = 0; j < modes(); ++j) weights[j] = belief[j];
-  }
   void require(double dt, const Seen* seen) const;
-  void describe_models(double dt);
   std::string this_step(double dt) const;
 
   Estimates entries_;                  ///< what StateAugmentation::prior knows of each model's components
@@ -245,7 +239,7 @@ class MultipleModelFilter {
   double laws_dt_ = std::numeric_limits<double>::quiet_NaN();
   std::array<State, 2> states_;
   std::size_t current_ = 0;
-  std::size_t steps_ = 0;
+  std::size_t steps_ = 0, version_ = 1;
   std::optional<double> gate_distance_ = 0.0;  ///< empty if not computed yet
   bool seen_ = false;                          ///< whether the last step had a measurement
   bool accepted_ = false;

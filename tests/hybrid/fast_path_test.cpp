@@ -1,10 +1,10 @@
-// The short step against textbook matrices: each law alone is their Kalman filter, and two together are the restated
+// The fast path against textbook matrices: each law alone is their Kalman filter, and two together are the restated
 // filter, along one to three axes, by each instruction set.
 
 #include "hybrid/banks.hpp"
 #include "hybrid/instruction_sets.hpp"
 
-namespace kinematic_step_test {
+namespace fast_path_test {
 
 using restatement::Matrix;
 
@@ -127,7 +127,7 @@ void is_textbook(const std::vector<Textbook>& chosen_laws, int axes, bool fuzzy,
   }
 }
 
-TEST(KinematicStep, OfOneLawIsTheKalmanFilterOfItsTextbookMatrices) {
+TEST(FastPath, OfOneLawIsTheKalmanFilterOfItsTextbookMatrices) {
   under_each_instruction_set([] {
     for (const int axes : {1, 2, 3})
       for (const Textbook& law : laws)
@@ -135,7 +135,7 @@ TEST(KinematicStep, OfOneLawIsTheKalmanFilterOfItsTextbookMatrices) {
   });
 }
 
-TEST(KinematicStep, OfSeveralLawsIsTheRestatedFilterOfTheirs) {
+TEST(FastPath, OfSeveralLawsIsTheRestatedFilterOfTheirs) {
   under_each_instruction_set([] {
     for (const int axes : {1, 2, 3})
       for (const bool fuzzy : {false, true})
@@ -148,7 +148,7 @@ TEST(KinematicStep, OfSeveralLawsIsTheRestatedFilterOfTheirs) {
 }
 
 /// What a known input adds, which no named motion has.
-TEST(KinematicStep, AddsAKnownInput) {
+TEST(FastPath, AddsAKnownInput) {
   under_each_instruction_set([] {
     const RandomVariable mode{"mode", 1};
     const Vector<2> gravity(0.5, -9.81);
@@ -162,4 +162,4 @@ TEST(KinematicStep, AddsAKnownInput) {
   });
 }
 
-}  // namespace kinematic_step_test
+}  // namespace fast_path_test
