@@ -4,30 +4,92 @@
 #include <cmath>
 #include <limits>
 
-#include "factors.hpp"
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <Eigen/QR>
+
+#include <sigmax/estimation/dense.hpp>
 
 namespace sigmax {
-
-using namespace detail;
-
 namespace {
 
-/// The top rows of some columns of a matrix, into another with its own number of rows.
-void copy_block(const double* from, int from_rows, int rows, int columns, double* to, int to_rows) {
-  for (int k = 0; k < columns; ++k) std::copy_n(from + k * from_rows, rows, to + k * to_rows);
-}
+using detail::Scratch;
 
-/// T⁻ᵀ Mᵀ with the triangle T of a matrix of n columns.
-void solve_transposed(const Triangle& triangle, const double* M, int n, double* result) {
-  Scratch<1024> T(n * n);
-  triangle.copy_to(T);
-  for (int k = 0; k < n; ++k)
-    for (int i = 0; i < n; ++i) {
-      double rest = M[k + i * n];
-      for (int j = 0; j < i; ++j) rest -= T[j + i * n] * result[j + k * n];
-      result[i + k * n] = rest / T[i + i * n];
+/// Matrices of at most so many components need no memory; with more rows they lie in a Scratch.
+constexpr int max_size = 32;
+using Square = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, max_size, max_size>;
+using Column = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, max_size, 1>;
+using Tall = Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, Eigen::Dynamic, max_size>>;
+using Map = Eigen::Map<Eigen::MatrixXd>;
+using ConstMap = Eigen::Map<const Eigen::MatrixXd>;
+
+ConstMap R_of(const FutureEvidence& of) { return {of.R(), of.rows(), of.size()}; }
+auto r_of(const FutureEvidence& of) { return Eigen::Map<const Eigen::VectorXd>(of.r(), of.rows()); }
+/// [R r] of so many rows, to be written.
+Map written(FutureEvidence& of, int rows) { return {of.write(rows), rows, of.size() + 1}; }
+
+/// Turns the first `columns` of a matrix into an upper triangle by reflections of its rows, in place. The greatest
+/// entry of each column leads, so that rows of very different size keep their digits (Cox, Higham 1998).
+class Triangle {
+ public:
+  Triangle(double* numbers, Eigen::Index rows, Eigen::Index all_columns, Eigen::Index columns)
+      : matrix_(numbers, rows, all_columns), columns_(std::min(columns, rows)) {
+    for (Eigen::Index c = 0; c < columns_; ++c) {
+      auto& [lead, v0, scale] = reflections_[c];
+      auto column = matrix_.col(c).tail(rows - c);
+      const double greatest = column.cwiseAbs().maxCoeff(&lead);
+      lead += c;
+      matrix_.row(c).swap(matrix_.row(lead));
+      const double norm = greatest > 0.0 ? greatest * (column / greatest).norm() : 0.0;
+      const double diagonal = std::copysign(norm, -column[0]);
+      v0 = column[0] - diagonal;  // 1 − scale (v0, v)(v0, v)ᵀ, with v left below the diagonal
+      scale = diagonal == 0.0 ? 0.0 : -1.0 / (diagonal * v0);
+      for (Eigen::Index other = c + 1; other < all_columns; ++other) reflect(matrix_.col(other), c);
+      column[0] = diagonal;
     }
-}
+  }
+
+  /// The sum of the logarithms of the diagonal's sizes.
+  double log_determinant() const { return matrix_.diagonal().head(columns_).array().abs().log().sum(); }
+
+  /// The first columns of the orthogonal Q with matrix = Q · triangle, as many as Q has.
+  void orthogonal(Tall Q) const {
+    Q.setIdentity();
+    for (Eigen::Index c = columns_; c-- > 0;)
+      for (Eigen::Index other = c; other < Q.cols(); ++other) reflect(Q.col(other), c);
+    for (Eigen::Index c = columns_; c-- > 0;)  // all last, as every exchange of rows moved the earlier v, too
+      Q.row(c).swap(Q.row(reflections_[c].lead));
+  }
+
+  /// The triangle of a matrix with as many rows as columns or more.
+  Square upper() const { return matrix_.topLeftCorner(columns_, columns_).triangularView<Eigen::Upper>(); }
+
+  /// T⁻ᵀ Mᵀ with that triangle T.
+  Square solve_transposed(const ConstMap& M) const {
+    return upper().transpose().triangularView<Eigen::Lower>().solve(M.transpose());
+  }
+
+ private:
+  struct Reflection {
+    Eigen::Index lead;
+    double v0, scale;
+  };
+
+  template <class Numbers>
+  void reflect(Numbers column, Eigen::Index c) const {
+    const auto& [lead, v0, scale] = reflections_[c];
+    const auto v = matrix_.col(c).tail(matrix_.rows() - c - 1);
+    auto below = column.tail(v.size());
+    const double product = scale * (v0 * column[c] + v.dot(below));
+    column[c] -= product * v0;
+    below -= product * v;
+  }
+
+  Map matrix_;
+  Eigen::Index columns_;
+  Reflection reflections_[2 * max_size];
+};
 
 }  // namespace
 
@@ -46,30 +108,21 @@ double* FutureEvidence::write(int rows) {
 
 void FutureEvidence::add(const double* other_R, const double* other_r, int other_rows) {
   if (other_rows == 0) return;
-  const int all = rows_ + other_rows, n = n_;
-  Scratch<640> stack(all * (n + 1));
-  copy_block(R(), rows_, rows_, n + 1, stack, all);
-  copy_block(other_R, other_rows, other_rows, n, stack + rows_, all);
-  std::copy_n(other_r, other_rows, stack + rows_ + n * all);
-  const Triangle triangle(stack, all, n + 1, n);
-  const int kept = std::min(n, all);
-  double* const result = write(kept);
-  copy_block(stack, all, kept, n + 1, result, kept);
-  for (int k = 0; k < n; ++k)
-    for (int i = k + 1; i < kept; ++i) result[i + k * kept] = 0.0;
+  const int all = rows_ + other_rows;
+  Scratch<640> numbers(all * (n_ + 1));
+  Map stack(numbers, all, n_ + 1);
+  stack.topRows(rows_) = ConstMap(R(), rows_, n_ + 1);
+  stack.bottomLeftCorner(other_rows, n_) = ConstMap(other_R, other_rows, n_);
+  stack.col(n_).tail(other_rows) = ConstMap(other_r, other_rows, 1);
+  const Triangle triangle(numbers, all, n_ + 1, n_);
+  const int kept = std::min(n_, all);
+  written(*this, kept) = stack.topRows(kept).triangularView<Eigen::Upper>();
 }
 
 void FutureEvidence::transform(const double* A, int axes) {
-  double inverse[9] = {}, copy[9];
-  for (int i = 0; i < axes; ++i) inverse[i + i * axes] = 1.0;
-  std::copy_n(A, axes * axes, copy);
-  solve(copy, axes, inverse, axes);
-  Scratch block(rows_ * axes);
-  for (int d = 0; d + axes <= n_; d += axes) {
-    double* const columns = numbers_.data() + d * rows_;
-    std::copy_n(columns, rows_ * axes, block.data());
-    multiply(block, rows_, columns_of(inverse, axes), columns, rows_, rows_, axes, axes);
-  }
+  const Eigen::MatrixXd inverse = ConstMap(A, axes, axes).inverse();
+  Map all(numbers_.data(), rows_, n_);
+  for (int d = 0; d + axes <= n_; d += axes) all.middleCols(d, axes) *= inverse;
 }
 
 double FutureEvidence::carry_back(const double* offset, const double* B, int m, const double* A, int q,
@@ -77,127 +130,93 @@ double FutureEvidence::carry_back(const double* offset, const double* B, int m, 
   result.clear(m);
   if (rows_ == 0) return 0.0;
   const int all = rows_ + q;
-  Scratch<640> work(all * (q + m + 1));
-  std::fill_n(work.data(), all * (q + m + 1), 0.0);
-  multiply(R(), rows_, columns_of(A, n_), work, all, rows_, n_, q);
-  multiply(R(), rows_, columns_of(B, n_), work + q * all, all, rows_, n_, m);
-  double* const last = work + (q + m) * all;
-  std::copy_n(r(), rows_, last);
-  multiply(R(), rows_, columns_of(offset, n_), last, all, rows_, n_, 1, Into::minus);
-  for (int i = 0; i < q; ++i) work[rows_ + i + i * all] = 1.0;
-  const Triangle triangle(work, all, q + m + 1, q);
-  copy_block(work + q + q * all, all, rows_, m + 1, result.write(rows_), rows_);
+  Scratch<640> numbers(all * (q + m + 1));
+  Map work(numbers, all, q + m + 1);
+  const ConstMap R = R_of(*this);
+  work.topLeftCorner(rows_, q).noalias() = R * ConstMap(A, n_, q);
+  work.block(0, q, rows_, m).noalias() = R * ConstMap(B, n_, m);
+  work.col(q + m).head(rows_) = r_of(*this);
+  work.col(q + m).head(rows_).noalias() -= R * Eigen::Map<const Eigen::VectorXd>(offset, n_);
+  work.bottomRows(q).setIdentity();
+  const Triangle triangle(numbers, all, q + m + 1, q);
+  written(result, rows_) = work.bottomRightCorner(rows_, m + 1);
   return -triangle.log_determinant();
 }
 
-double FutureEvidence::meet(const double* L, View estimate) const {
+double FutureEvidence::meet(const double* L, detail::View estimate) const {
   const int n = estimate.n, all = rows_ + n;
-  Scratch<640> work(all * (n + 1));
-  Scratch root(n * n);
-  std::fill_n(work.data(), all * (n + 1), 0.0);
-  multiply(R(), rows_, columns_of(L, n), work, all, rows_, n, n);
-  std::copy_n(r(), rows_, work + n * all);
-  for (int i = 0; i < n; ++i) work[rows_ + i + i * all] = 1.0;
-  const Triangle triangle(work, all, n + 1, n);
-  solve_transposed(triangle, L, n, root);  // its columns are those of (L T⁻¹)ᵀ
-  const double* const told = work + n * all;
-  multiply(told, 1, columns_of(root, n), estimate.mean, 1, 1, n, n, Into::plus);
-  multiply_transposed(root, n, root, n, estimate.covariance, n, n, n, n);
-  mirror_lower(estimate.covariance, n);
-  double squared = 0.0;
-  for (int i = n; i < all; ++i) squared += told[i] * told[i];
-  return -triangle.log_determinant() - 0.5 * squared;
+  const ConstMap root(L, n, n);
+  Scratch<640> numbers(all * (n + 1));
+  Map work(numbers, all, n + 1);
+  work.topLeftCorner(rows_, n).noalias() = R_of(*this) * root;
+  work.col(n).head(rows_) = r_of(*this);
+  work.bottomRows(n).setIdentity();
+  work.col(n).tail(n).setZero();
+  const Triangle triangle(numbers, all, n + 1, n);
+  const Square half = triangle.solve_transposed(root);  // (L T⁻¹)ᵀ
+  const auto told = work.col(n);
+  Eigen::Map<Eigen::VectorXd>(estimate.mean, n).noalias() += half.transpose() * told.head(n);
+  Map(estimate.covariance, n, n).noalias() = half.transpose() * half;
+  detail::mirror_lower(estimate.covariance, n);
+  return -triangle.log_determinant() - 0.5 * told.tail(rows_).squaredNorm();
 }
 
 namespace detail {
 namespace {
 
-void set_identity(double* M, int n) {
-  std::fill_n(M, n * n, 0.0);
-  for (int i = 0; i < n; ++i) M[i + i * n] = 1.0;
-}
-
 /// G (P⁻¹ + GᵀG)⁻¹ Gᵀ with P = L Lᵀ.
-void known(const double* G, const double* L, int n, double* result) {
-  Scratch<1024> K(n * n), half(n * n);
-  Scratch<640> work(2 * n * n);
-  multiply(G, n, columns_of(L, n), K, n, n, n, n);
-  for (int k = 0; k < n; ++k)
-    for (int i = 0; i < n; ++i) {
-      work[i + k * 2 * n] = K[i + k * n];
-      work[n + i + k * 2 * n] = i == k ? 1.0 : 0.0;
-    }
-  solve_transposed(Triangle(work, 2 * n, n, n), K, n, half);
-  multiply_transposed(half, n, half, n, result, n, n, n, n);
+Square known(const Square& G, const double* L) {
+  const auto n = static_cast<int>(G.rows());
+  Scratch<640> numbers(2 * n * n);
+  Tall work(numbers, 2 * n, n);
+  const Square K = G * ConstMap(L, n, n);
+  work << K, Square::Identity(n, n);
+  const Square half = Triangle(numbers, 2 * n, n, n).solve_transposed({K.data(), n, n});
+  return half.transpose() * half;
 }
 
 /// The evidence with the information GᵀZG and the vector Gᵀy, with what was seen.
-void finish(const double* G, double* Z, double* y, int n, const FutureEvidence& seen, FutureEvidence& result) {
+void finish(Square G, Square Z, Column y, const FutureEvidence& seen, FutureEvidence& result) {
   constexpr double least = 1e-8;
-  Scratch<1024> triangle(n * n), factor(n * n);
-  std::copy_n(G, n * n, triangle.data());
+  const auto n = static_cast<int>(G.rows());
   if (seen.rows() > 0) {
     const int all = n + seen.rows();
-    Scratch<640> stack(all * n), U(all * n);
-    Scratch<1024> product(n * n), sum(n * n);
-    copy_block(G, n, n, n, stack, all);
-    copy_block(seen.R(), seen.rows(), seen.rows(), n, stack + n, all);
-    const Triangle both(stack, all, n, n);
-    both.orthogonal(U, n);
-    both.copy_to(triangle);
+    Scratch<640> numbers(all * n), of_U(all * n);
+    Tall stack(numbers, all, n), U(of_U, all, n);
+    stack << G, R_of(seen);
+    const Triangle both(numbers, all, n, n);
+    both.orthogonal(U);
+    G = both.upper();
     // Z and y of both, in the new triangle's directions: Z of G's rows, and one of those of what was seen.
-    multiply(Z, n, {U, 1, all}, product, n, n, n, n);
-    Scratch<32> told(n);
-    multiply_transposed(U, all, product, n, sum, n, n, n, n);
-    multiply_transposed(U + n, all, U + n, all, Z, n, n, seen.rows(), n);
-    multiply_transposed(U, all, y, n, told, n, n, n, 1);
-    multiply_transposed(U + n, all, seen.r(), seen.rows(), y, n, n, seen.rows(), 1);
-    for (int i = 0; i < n * n; ++i) Z[i] += sum[i];
-    for (int i = 0; i < n; ++i) y[i] += told[i];
+    const auto old = U.topRows(n), added = U.bottomRows(seen.rows());
+    const Square product = Z * old;
+    Z.noalias() = old.transpose() * product;
+    Z.noalias() += added.transpose() * added;
+    y = (old.transpose() * y + added.transpose() * r_of(seen)).eval();
   }
-  bool sure = cholesky_factor(Z, n, factor);
-  for (int i = 0; sure && i < n; ++i) sure = factor[i + i * n] > std::sqrt(least);
   result.clear(n);
-  if (sure) {
-    double* const R = result.write(n);
-    multiply_transposed(factor, n, triangle, n, R, n, n, n, n);
-    std::copy_n(y, n, R + n * n);
-    lower_solve(factor, n, R + n * n);
+  const Eigen::LLT<Square> factor(Z);
+  if (factor.info() == Eigen::Success && factor.matrixLLT().diagonal().minCoeff() > std::sqrt(least)) {
+    Map numbers = written(result, n);
+    numbers.leftCols(n).noalias() = factor.matrixU() * G;
+    numbers.col(n) = factor.matrixL().solve(y);
     return;
   }
   // Along its axes, within what the triangle can reach: beyond that Z has no meaning.
-  Scratch<1024> scaled(n * n), basis(n * n), within(n * n), product(n * n), vectors(n * n);
-  Scratch<32> values(n);
-  for (int k = 0; k < n; ++k) {
-    double squared = 0.0;
-    for (int i = 0; i < n; ++i) squared += triangle[i + k * n] * triangle[i + k * n];
-    const double scale = 1.0 / std::max(std::sqrt(squared), std::numeric_limits<double>::min());
-    for (int i = 0; i < n; ++i) scaled[i + k * n] = scale * triangle[i + k * n];
-  }
-  const int reached = basis_of(scaled, n, 1e-12, basis);
-  if (reached == 0) return;  // nothing was told
-  multiply(Z, n, columns_of(basis, n), product, n, n, n, reached);
-  multiply_transposed(basis, n, product, n, within, reached, reached, n, reached);
-  eigen(within, reached, values, vectors);
-  const auto kept = static_cast<int>(
-      std::count_if(values.data(), values.data() + reached, [](double value) { return value > least; }));
-  double* const R = result.write(kept);
-  Scratch<32> axis(n);
-  int row = 0;
-  for (int a = 0; a < reached; ++a) {
-    if (!(values[a] > least)) continue;
-    multiply(basis, n, columns_of(vectors + a * reached, reached), axis, n, n, reached, 1);
-    const double root = std::sqrt(values[a]);
-    double told = 0.0;
-    for (int i = 0; i < n; ++i) told += axis[i] * y[i];
-    for (int k = 0; k < n; ++k) {
-      double entry = 0.0;
-      for (int i = 0; i < n; ++i) entry += axis[i] * triangle[i + k * n];
-      R[row + k * kept] = root * entry;
-    }
-    R[row + n * kept] = told / root;
-    ++row;
-  }
+  Eigen::ColPivHouseholderQR<Square> reach(n, n);
+  reach.setThreshold(1e-12);
+  reach.compute(G * G.colwise().norm().cwiseMax(std::numeric_limits<double>::min()).cwiseInverse().asDiagonal());
+  const Square basis = Square(reach.householderQ()).leftCols(reach.rank());
+  if (basis.cols() == 0) return;  // nothing was told
+  const Square product = Z * basis, within = basis.transpose() * product;
+  const Eigen::SelfAdjointEigenSolver<Square> axes(within);
+  const auto kept = static_cast<int>((axes.eigenvalues().array() > least).count());  // they ascend
+  const Square along = basis * axes.eigenvectors().rightCols(kept);
+  const Column roots = axes.eigenvalues().tail(kept).cwiseSqrt();
+  Map numbers = written(result, kept);
+  numbers.leftCols(n).noalias() = along.transpose() * G;
+  numbers.leftCols(n).array().colwise() *= roots.array();
+  numbers.col(n) = (along.transpose() * y).cwiseQuotient(roots);
 }
 
 }  // namespace
@@ -205,70 +224,48 @@ void finish(const double* G, double* Z, double* y, int n, const FutureEvidence& 
 void collapse(const std::vector<FutureEvidence>& parts, const std::vector<double>& weights, const double* L,
               const FutureEvidence& seen, FutureEvidence& result) {
   const int n = seen.size();
-  int count = 0;
-  for (std::size_t j = 0; j < parts.size(); ++j)
-    if (weights[j] > 0.0) count += parts[j].rows();
-  const int all = std::max(count, n);
-  Scratch<640> stack(all * n), U(all * n);
-  std::fill_n(stack.data(), all * n, 0.0);
-  int first = 0;
-  for (std::size_t j = 0; j < parts.size(); ++j) {
-    if (!(weights[j] > 0.0)) continue;
-    const int rows = parts[j].rows();
-    for (int k = 0; k < n; ++k)
-      for (int i = 0; i < rows; ++i) stack[first + i + k * all] = std::sqrt(weights[j]) * parts[j].R()[i + k * rows];
-    first += rows;
-  }
-  Scratch<1024> G(n * n), H(n * n), empty(n * n), N(n * n), rest(n * n), solved(n * (n + 1)), X(n * n), Xi(n * n);
-  const Triangle triangle(stack, all, n, n);
-  triangle.orthogonal(U, n);
-  triangle.copy_to(G);
-  known(G, L, n, H);
-  multiply_transposed(U + count, all, U + count, all, empty, n, n, all - count, n);
-
-  Scratch<640> q_of(static_cast<int>(parts.size()) * n);
-  Scratch<32> q(n), y(n);
-  std::fill_n(X.data(), n * n, 0.0);
-  std::fill_n(q.data(), n, 0.0);
-  first = 0;
-  for (std::size_t j = 0; j < parts.size(); ++j) {
-    const double w = weights[j];
-    if (!(w > 0.0)) continue;
-    const int rows = parts[j].rows();
-    multiply_transposed(U + first, all, U + first, all, N, n, n, rows, n);
-    for (int i = 0; i < n * n; ++i) N[i] = (i % (n + 1) == 0 ? 1.0 : 0.0) - empty[i] - N[i] / w;
-    set_identity(rest, n);
-    multiply(N, n, columns_of(H, n), rest, n, n, n, n, Into::minus);
-    std::copy_n(N.data(), n * n, solved.data());
-    double* const q_j = solved + n * n;
-    multiply_transposed(U + first, all, parts[j].r(), rows, q_j, n, n, rows, 1);
-    for (int i = 0; i < n; ++i) q_j[i] /= std::sqrt(w);
-    solve(rest, n, solved, n + 1);
-    for (int i = 0; i < n * n; ++i) X[i] += w * solved[i];
-    for (int i = 0; i < n; ++i) q[i] += w * q_j[i];
-    std::copy_n(q_j, n, q_of + static_cast<int>(j) * n);
-    first += rows;
-  }
-  for (std::size_t j = 0; j < parts.size(); ++j) {
-    if (!(weights[j] > 0.0)) continue;
-    const double* const q_j = q_of + static_cast<int>(j) * n;
-    for (int k = 0; k < n; ++k)
-      for (int i = 0; i < n; ++i) X[i + k * n] += weights[j] * (q_j[i] - q[i]) * (q_j[k] - q[k]);
-  }
-  for (int k = 0; k < n; ++k)
-    for (int i = k; i < n; ++i) X[i + k * n] = X[k + i * n] = 0.5 * (X[i + k * n] + X[k + i * n]);
-  set_identity(rest, n);
-  multiply(X, n, columns_of(H, n), rest, n, n, n, n, Into::plus);
-  std::copy_n(X.data(), n * n, Xi.data());
-  solve(rest, n, Xi, n);
-  Scratch<32> Hq(n);
-  multiply(H, n, columns_of(q, n), Hq, n, n, n, 1);
-  std::copy_n(q.data(), n, y.data());
-  multiply(Xi, n, columns_of(Hq, n), y, n, n, n, 1, Into::minus);
-  double* const Z = X;
-  for (int k = 0; k < n; ++k)
-    for (int i = 0; i < n; ++i) Z[i + k * n] = (i == k ? 1.0 : 0.0) - 0.5 * (Xi[i + k * n] + Xi[k + i * n]);
-  finish(G, Z, y, n, seen, result);
+  const auto count = static_cast<int>(parts.size());
+  /// act(j, weight, part, its first row) of all that count; returns how many rows they have.
+  const auto for_parts = [&](const auto& act) {
+    int first = 0;
+    for (int j = 0; j < count; ++j) {
+      const auto at = static_cast<std::size_t>(j);
+      if (!(weights[at] > 0.0)) continue;
+      act(j, weights[at], parts[at], first);
+      first += parts[at].rows();
+    }
+    return first;
+  };
+  const int rows = for_parts([](const auto&...) {}), all = std::max(rows, n);
+  Scratch<640> numbers(all * n), of_U(all * n), of_q(n * count);
+  Tall stack(numbers, all, n), U(of_U, all, n);
+  Map q_of(of_q, n, count);
+  stack.setZero();
+  for_parts([&](int, double w, const FutureEvidence& part, int first) {
+    stack.middleRows(first, part.rows()) = std::sqrt(w) * R_of(part);
+  });
+  const Triangle triangle(numbers, all, n, n);
+  triangle.orthogonal(U);
+  const Square G = triangle.upper(), H = known(G, L), one = Square::Identity(n, n);
+  const Square reached = one - U.bottomRows(all - rows).transpose() * U.bottomRows(all - rows);
+  Square X = Square::Zero(n, n);
+  Column q = Column::Zero(n);
+  for_parts([&](int j, double w, const FutureEvidence& part, int first) {
+    const auto own = U.middleRows(first, part.rows());
+    const Square N = reached - own.transpose() * own / w;
+    const Eigen::PartialPivLU<Square> rest(one - N * H);
+    q_of.col(j) = rest.solve(own.transpose() * r_of(part) / std::sqrt(w));
+    q += w * q_of.col(j);
+    X += w * rest.solve(N);
+  });
+  for_parts([&](int j, double w, const FutureEvidence&, int) {
+    const Column apart = q_of.col(j) - q;
+    X += w * apart * apart.transpose();
+  });
+  X = (0.5 * (X + X.transpose())).eval();
+  const Square Xi = Eigen::PartialPivLU<Square>(one + X * H).solve(X);
+  const Column moved = H * q;
+  finish(G, one - 0.5 * (Xi + Xi.transpose()), q - Xi * moved, seen, result);
 }
 
 }  // namespace detail

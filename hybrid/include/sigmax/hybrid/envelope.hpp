@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <vector>
 
+#include <sigmax/estimation/gaussian.hpp>
 #include <sigmax/estimation/refs.hpp>
 
 namespace sigmax {
@@ -20,7 +21,9 @@ namespace sigmax {
 /// positive definite.
 class Envelope {
  public:
-  /// No parts; those to come have `n` ≤ 32 components. Throws std::invalid_argument above.
+  static constexpr int max_size = 32;  ///< of components
+
+  /// No parts; those to come have `n` ≤ max_size components. Throws std::invalid_argument above.
   void clear(int n);
 
   /// A part of weight w ≥ 0 with a mean and a covariance, of which the lower triangle is read. Throws std::domain_error
@@ -32,14 +35,17 @@ class Envelope {
   double match(detail::View result);
 
  private:
+  using Square = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, max_size, max_size>;
+  using Column = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, max_size, 1>;
+
   struct Part {
     double weight = 0.0, log_scale = 0.0;  ///< log (w / |P|^½)
-    std::vector<double> mean;
-    std::vector<double> root;    ///< L with P = L Lᵀ, in the components that vary
-    std::vector<int> varies;     ///< the components with a variance
-    double mass = 0.0;           ///< its share of β
-    std::vector<double> shift;   ///< mass times the mean of the deviations
-    std::vector<double> second;  ///< mass times their second moment
+    Column mean;
+    Square root;                                                   ///< L with P = L Lᵀ, in the components that vary
+    Eigen::Matrix<int, Eigen::Dynamic, 1, 0, max_size, 1> varies;  ///< the components with a variance
+    double mass = 0.0;                                             ///< its share of β
+    Column shift;                                                  ///< mass times the mean of the deviations
+    Square second;                                                 ///< mass times their second moment
 
     bool comparable(const Part& other) const;  ///< neither is singular to the other
   };
@@ -48,8 +54,7 @@ class Envelope {
 
   int size_ = 0;
   std::size_t count_ = 0;
-  std::vector<Part> parts_;            ///< kept for the memory they hold
-  std::vector<double> log_densities_;  ///< of the parts that are compared, at each point
+  std::vector<Part> parts_;  ///< kept for the memory they hold
 };
 
 }  // namespace sigmax
