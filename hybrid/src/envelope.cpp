@@ -8,9 +8,8 @@
 #include <stdexcept>
 #include <string>
 
-#include <Eigen/Cholesky>
-
 #include <sigmax/estimation/chi_square.hpp>
+#include <sigmax/estimation/dense.hpp>
 
 namespace sigmax {
 namespace {
@@ -18,6 +17,12 @@ namespace {
 constexpr int points = 128;
 using OfPoints = Eigen::Array<double, 1, points>;
 using Points = Eigen::Matrix<double, Eigen::Dynamic, points, 0, Envelope::max_size, points>;
+
+/// L⁻¹ of each column, in its place.
+template <class Columns>
+void solve_lower(const detail::SmallMatrix& L, Columns& columns) {
+  for (auto column : columns.colwise()) detail::lower_solve(L.data(), static_cast<int>(L.rows()), column.data());
+}
 
 /// Points of n components that look like a standard normal variable, a column each: a lattice of irrational steps (the
 /// powers of the root of x^{n+1} = x + 1), each point with its mirror image, straightened so that mean and covariance
@@ -39,8 +44,10 @@ Eigen::Map<const Points> normal_points(Eigen::Index n) {
         lattice(i, points / 2 + k) = -x;
       }
     }
-    const Eigen::LLT<Eigen::MatrixXd> spread(lattice * lattice.transpose() / points);
-    spread.matrixL().solveInPlace(lattice);
+    const detail::SmallMatrix spread = lattice.lazyProduct(lattice.transpose()) / points;
+    detail::SmallMatrix root(n, n);
+    detail::cholesky_factor(spread.data(), static_cast<int>(n), root.data());
+    solve_lower(root, lattice);
     all[at] = std::move(lattice);
   });
   return {all[at].data(), n, points};
@@ -66,12 +73,12 @@ void Envelope::add(double weight, detail::ConstView estimate) {
   part.varies.resize((covariance.diagonal().array() != 0.0).count());
   for (int i = 0, k = 0; i < size_; ++i)
     if (covariance(i, i) != 0.0) part.varies[k++] = i;
-  const Eigen::LLT<Square> root(covariance(part.varies, part.varies));
-  if (root.info() != Eigen::Success)
+  const Square varying = covariance(part.varies, part.varies);
+  part.root.resizeLike(varying);
+  if (!detail::cholesky_factor(varying.data(), static_cast<int>(varying.rows()), part.root.data()))
     throw std::domain_error(
         "a covariance in an envelope is certain of a combination of components that each have a variance (it is not "
         "positive definite); expected only single components to be certain");
-  part.root = root.matrixL();
   part.log_scale = std::log(weight) - part.root.diagonal().array().log().sum();
   ++count_;
 }
@@ -91,10 +98,11 @@ void Envelope::weigh(Part& part) {
     const Part& other = parts_[l];
     if (!part.comparable(other)) continue;
     // A point x = m_l + L_l ξ is L_m⁻¹(x − m_m) = step ξ + apart in the other's own deviations.
-    const auto whitening = other.root.triangularView<Eigen::Lower>();
-    const Square step = whitening.solve(part.root);
-    const Column apart = whitening.solve(Column((part.mean - other.mean)(part.varies)));
-    Points whitened = step * deviations;
+    Square step = part.root;
+    Column apart = (part.mean - other.mean)(part.varies);
+    solve_lower(other.root, step);
+    solve_lower(other.root, apart);
+    Points whitened = step.lazyProduct(deviations);
     whitened.colwise() += apart;
     const OfPoints log_density = other.log_scale - 0.5 * whitened.colwise().squaredNorm().array();
     const OfPoints before = greatest;
@@ -104,11 +112,10 @@ void Envelope::weigh(Part& part) {
   const OfPoints masses = part.weight / points / sum;
   part.mass = masses.sum();
   // E ξ and E ξξᵀ under these masses, in the components.
-  const Column mean = deviations * masses.matrix().transpose();
-  const Square second = deviations * masses.matrix().asDiagonal() * deviations.transpose();
-  const Square half = part.root * second;
-  part.shift = part.root * mean;
-  part.second = half * part.root.transpose();
+  const Points weighted = deviations * masses.matrix().asDiagonal();
+  const Square second = weighted.lazyProduct(deviations.transpose()), half = part.root.lazyProduct(second);
+  part.shift = part.root.lazyProduct(Column(weighted.rowwise().sum()));
+  part.second = half.lazyProduct(part.root.transpose());
 }
 
 double Envelope::match(detail::View result) {
@@ -131,9 +138,9 @@ double Envelope::match(detail::View result) {
   for (std::size_t l = 0; l < count_; ++l) {
     const Part& part = parts_[l];
     const Column apart = part.mean - mean;
-    covariance += part.mass * apart * apart.transpose();
-    covariance(Eigen::all, part.varies) += apart * part.shift.transpose();
-    covariance(part.varies, Eigen::all) += part.shift * apart.transpose();
+    covariance += part.mass * apart.lazyProduct(apart.transpose());
+    covariance(Eigen::all, part.varies) += apart.lazyProduct(part.shift.transpose());
+    covariance(part.varies, Eigen::all) += part.shift.lazyProduct(apart.transpose());
     covariance(part.varies, part.varies) += part.second;
   }
   covariance /= mass;

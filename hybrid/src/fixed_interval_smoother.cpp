@@ -35,8 +35,7 @@ FixedIntervalSmoother<Kind>::FixedIntervalSmoother(const MultipleModelFilter<Kin
       log_weight_(modes()),
       weights_(modes()),
       joint_(modes(), modes()) {
-  int greatest = 0;
-  for (std::size_t i = 0; i < modes(); ++i) greatest = std::max(greatest, filtered_.view(i).n);
+  const int greatest = filter.component_count();
   for (std::size_t i = 0; i < modes(); ++i) {
     const int n = filtered_.view(i).n;
     evidence_.emplace_back(greatest);  // room for what the largest model tells
@@ -89,47 +88,37 @@ double FixedIntervalSmoother<Kind>::smooth_pair(const Estimates& filtered, std::
   const AnyModel& model = system_.models()[j];
   const ConstView of_i = filtered.view(i), known = filtered_.view(j);
   const int n = known.n, m = of_i.n;
-  detail::Scratch<32> mean(n), moved(n);
-  detail::Scratch start_covariance(n * n), F(n * n), Q(n * n), root(n * n), B(n * m);
+  detail::SmallVector mean(n), moved(n);
+  detail::SmallMatrix start_covariance(n, n), F(n, n), Q(n, n), root(n, n), B = detail::SmallMatrix::Zero(n, m);
   detail::Scratch<512> A(n * 2 * n);
-  const View start{mean, start_covariance, n};  // the estimate of i in the components of j
+  const View start{mean.data(), start_covariance.data(), n};  // the estimate of i in the components of j
   const auto& map = components_.of_model(j)[i];
   const Estimates& lenders = interaction_.augmentation == StateAugmentation::prior ? entries_ : filtered;
   const detail::Mixture::Part part{of_i, &map};
   detail::Mixture{lenders.view(j), {&part, 1}, interaction_.augmentation}.read(part, start);
-  detail::linearised_step(model.ref(), start, dt_, moved, F, Q);
+  detail::linearised_step(model.ref(), start, dt_, moved.data(), F.data(), Q.data());
 
   int noises = 0;  // the columns of A
-  const auto add_noise = [&](const double* columns) {
-    for (int a = 0; a < n; ++a) {
-      const double* const column = columns + a * n;
-      if (std::any_of(column, column + n, [](double number) { return number != 0.0; }))
-        std::copy_n(column, n, A + noises++ * n);
-    }
+  const auto add_noise = [&](const detail::SmallMatrix& columns) {
+    for (int a = 0; a < n; ++a)
+      if (!columns.col(a).isZero(0.0)) Eigen::Map<Eigen::VectorXd>(A + noises++ * n, n) = columns.col(a);
   };
-  write_root(Q, n, model, root);
+  write_root(Q.data(), n, model, root.data());
   add_noise(root);
-  bool all = true;
-  std::fill_n(B.data(), n * m, 0.0);
   for (int b = 0; b < n; ++b) {
     const int in_i = map.in_source[static_cast<std::size_t>(b)];
-    if (in_i >= 0)
-      std::copy_n(F + b * n, n, B + in_i * n);
-    else
-      all = false;
+    if (in_i < 0) continue;
+    B.col(in_i) = F.col(b);
+    start_covariance.row(b).setZero();
+    start_covariance.col(b).setZero();
   }
-  if (!all) {  // what begins in j is noise, too
-    for (int b = 0; b < n; ++b)
-      if (map.in_source[static_cast<std::size_t>(b)] >= 0)
-        for (int a = 0; a < n; ++a) start.covariance[a + b * n] = start.covariance[b + a * n] = 0.0;
-    detail::Scratch product(n * n);
-    write_root(start.covariance, n, model, root);
-    detail::multiply(F, n, detail::columns_of(root, n), product, n, n, n, n);
-    add_noise(product);
+  if (!start_covariance.isZero(0.0)) {  // what begins in j is noise, too
+    write_root(start_covariance.data(), n, model, root.data());
+    add_noise(F * root);
   }
-  for (int a = 0; a < n; ++a) moved[a] -= known.mean[a];
+  moved -= Eigen::Map<const Eigen::VectorXd>(known.mean, n);
   FutureEvidence& told = parts_[i][j];
-  const double carried = evidence_[j].carry_back(moved, B, m, A, noises, told);
+  const double carried = evidence_[j].carry_back(moved.data(), B.data(), m, A, noises, told);
   const View pair = pairs_.view(i * modes() + j);
   detail::copy(of_i, pair);
   return carried + told.meet(roots_[i].data(), pair);

@@ -4,23 +4,21 @@
 #include <cmath>
 #include <limits>
 
-#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
-#include <Eigen/QR>
 
 #include <sigmax/estimation/dense.hpp>
+#include <sigmax/hybrid/estimates.hpp>
 
 namespace sigmax {
 namespace {
 
 using detail::Scratch;
 
-/// Matrices of at most so many components need no memory; with more rows they lie in a Scratch.
-constexpr int max_size = 32;
-using Square = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, max_size, max_size>;
-using Column = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, max_size, 1>;
-using Tall = Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, Eigen::Dynamic, max_size>>;
+using Square = detail::SmallMatrix;
+using Column = detail::SmallVector;
+/// What has more rows lies in a Scratch. Products are lazy: without blocks for a cache, which small ones do not need.
+using Tall = Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, Eigen::Dynamic, detail::small_size>>;
 using Map = Eigen::Map<Eigen::MatrixXd>;
 using ConstMap = Eigen::Map<const Eigen::MatrixXd>;
 
@@ -67,7 +65,10 @@ class Triangle {
 
   /// T⁻ᵀ Mᵀ with that triangle T.
   Square solve_transposed(const ConstMap& M) const {
-    return upper().transpose().triangularView<Eigen::Lower>().solve(M.transpose());
+    const Square L = upper().transpose();
+    Square result = M.transpose();
+    for (auto column : result.colwise()) detail::lower_solve(L.data(), static_cast<int>(columns_), column.data());
+    return result;
   }
 
  private:
@@ -88,7 +89,7 @@ class Triangle {
 
   Map matrix_;
   Eigen::Index columns_;
-  Reflection reflections_[2 * max_size];
+  Reflection reflections_[2 * detail::small_size];
 };
 
 }  // namespace
@@ -120,9 +121,11 @@ void FutureEvidence::add(const double* other_R, const double* other_r, int other
 }
 
 void FutureEvidence::transform(const double* A, int axes) {
-  const Eigen::MatrixXd inverse = ConstMap(A, axes, axes).inverse();
+  const Square inverse =
+      Eigen::PartialPivLU<Square>(ConstMap(A, axes, axes)).solve(Square(Square::Identity(axes, axes)));
   Map all(numbers_.data(), rows_, n_);
-  for (int d = 0; d + axes <= n_; d += axes) all.middleCols(d, axes) *= inverse;
+  for (int d = 0; d + axes <= n_; d += axes)
+    all.middleCols(d, axes) = all.middleCols(d, axes).lazyProduct(inverse).eval();
 }
 
 double FutureEvidence::carry_back(const double* offset, const double* B, int m, const double* A, int q,
@@ -133,10 +136,10 @@ double FutureEvidence::carry_back(const double* offset, const double* B, int m, 
   Scratch<640> numbers(all * (q + m + 1));
   Map work(numbers, all, q + m + 1);
   const ConstMap R = R_of(*this);
-  work.topLeftCorner(rows_, q).noalias() = R * ConstMap(A, n_, q);
-  work.block(0, q, rows_, m).noalias() = R * ConstMap(B, n_, m);
+  work.topLeftCorner(rows_, q).noalias() = R.lazyProduct(ConstMap(A, n_, q));
+  work.block(0, q, rows_, m).noalias() = R.lazyProduct(ConstMap(B, n_, m));
   work.col(q + m).head(rows_) = r_of(*this);
-  work.col(q + m).head(rows_).noalias() -= R * Eigen::Map<const Eigen::VectorXd>(offset, n_);
+  work.col(q + m).head(rows_).noalias() -= R.lazyProduct(ConstMap(offset, n_, 1));
   work.bottomRows(q).setIdentity();
   const Triangle triangle(numbers, all, q + m + 1, q);
   written(result, rows_) = work.bottomRightCorner(rows_, m + 1);
@@ -148,15 +151,14 @@ double FutureEvidence::meet(const double* L, detail::View estimate) const {
   const ConstMap root(L, n, n);
   Scratch<640> numbers(all * (n + 1));
   Map work(numbers, all, n + 1);
-  work.topLeftCorner(rows_, n).noalias() = R_of(*this) * root;
+  work.topLeftCorner(rows_, n).noalias() = R_of(*this).lazyProduct(root);
   work.col(n).head(rows_) = r_of(*this);
   work.bottomRows(n).setIdentity();
-  work.col(n).tail(n).setZero();
   const Triangle triangle(numbers, all, n + 1, n);
   const Square half = triangle.solve_transposed(root);  // (L T⁻¹)ᵀ
   const auto told = work.col(n);
-  Eigen::Map<Eigen::VectorXd>(estimate.mean, n).noalias() += half.transpose() * told.head(n);
-  Map(estimate.covariance, n, n).noalias() = half.transpose() * half;
+  Eigen::Map<Eigen::VectorXd>(estimate.mean, n).noalias() += half.transpose().lazyProduct(told.head(n));
+  Map(estimate.covariance, n, n).noalias() = half.transpose().lazyProduct(half);
   detail::mirror_lower(estimate.covariance, n);
   return -triangle.log_determinant() - 0.5 * told.tail(rows_).squaredNorm();
 }
@@ -169,10 +171,10 @@ Square known(const Square& G, const double* L) {
   const auto n = static_cast<int>(G.rows());
   Scratch<640> numbers(2 * n * n);
   Tall work(numbers, 2 * n, n);
-  const Square K = G * ConstMap(L, n, n);
+  const Square K = G.lazyProduct(ConstMap(L, n, n));
   work << K, Square::Identity(n, n);
   const Square half = Triangle(numbers, 2 * n, n, n).solve_transposed({K.data(), n, n});
-  return half.transpose() * half;
+  return half.transpose().lazyProduct(half);
 }
 
 /// The evidence with the information GᵀZG and the vector Gᵀy, with what was seen.
@@ -189,34 +191,40 @@ void finish(Square G, Square Z, Column y, const FutureEvidence& seen, FutureEvid
     G = both.upper();
     // Z and y of both, in the new triangle's directions: Z of G's rows, and one of those of what was seen.
     const auto old = U.topRows(n), added = U.bottomRows(seen.rows());
-    const Square product = Z * old;
-    Z.noalias() = old.transpose() * product;
-    Z.noalias() += added.transpose() * added;
-    y = (old.transpose() * y + added.transpose() * r_of(seen)).eval();
+    const Square product = Z.lazyProduct(old);
+    Z.noalias() = old.transpose().lazyProduct(product) + added.transpose().lazyProduct(added);
+    y = (old.transpose().lazyProduct(y) + added.transpose().lazyProduct(r_of(seen))).eval();
   }
   result.clear(n);
-  const Eigen::LLT<Square> factor(Z);
-  if (factor.info() == Eigen::Success && factor.matrixLLT().diagonal().minCoeff() > std::sqrt(least)) {
+  Square factor(n, n);
+  if (cholesky_factor(Z.data(), n, factor.data()) && factor.diagonal().minCoeff() > std::sqrt(least)) {
     Map numbers = written(result, n);
-    numbers.leftCols(n).noalias() = factor.matrixU() * G;
-    numbers.col(n) = factor.matrixL().solve(y);
+    numbers.leftCols(n).noalias() = factor.transpose().lazyProduct(G);
+    lower_solve(factor.data(), n, y.data());
+    numbers.col(n) = y;
     return;
   }
   // Along its axes, within what the triangle can reach: beyond that Z has no meaning.
-  Eigen::ColPivHouseholderQR<Square> reach(n, n);
-  reach.setThreshold(1e-12);
-  reach.compute(G * G.colwise().norm().cwiseMax(std::numeric_limits<double>::min()).cwiseInverse().asDiagonal());
-  const Square basis = Square(reach.householderQ()).leftCols(reach.rank());
+  Square rest = G * G.colwise().norm().cwiseMax(std::numeric_limits<double>::min()).cwiseInverse().asDiagonal();
+  Square basis(n, 0);
+  for (Eigen::Index lead = 0; basis.cols() < n;) {
+    const double length = rest.colwise().norm().maxCoeff(&lead);
+    if (!(length > 1e-12)) break;
+    basis.conservativeResize(n, basis.cols() + 1);
+    basis.rightCols(1) = rest.col(lead) / length;
+    for (int again = 0; again < 2; ++again)  // the second time for the rounding of the first
+      for (auto column : rest.colwise()) column -= column.dot(basis.rightCols(1).col(0)) * basis.rightCols(1);
+  }
   if (basis.cols() == 0) return;  // nothing was told
-  const Square product = Z * basis, within = basis.transpose() * product;
+  const Square product = Z.lazyProduct(basis), within = basis.transpose().lazyProduct(product);
   const Eigen::SelfAdjointEigenSolver<Square> axes(within);
   const auto kept = static_cast<int>((axes.eigenvalues().array() > least).count());  // they ascend
-  const Square along = basis * axes.eigenvectors().rightCols(kept);
+  const Square along = basis.lazyProduct(axes.eigenvectors().rightCols(kept));
   const Column roots = axes.eigenvalues().tail(kept).cwiseSqrt();
   Map numbers = written(result, kept);
-  numbers.leftCols(n).noalias() = along.transpose() * G;
+  numbers.leftCols(n).noalias() = along.transpose().lazyProduct(G);
   numbers.leftCols(n).array().colwise() *= roots.array();
-  numbers.col(n) = (along.transpose() * y).cwiseQuotient(roots);
+  numbers.col(n) = along.transpose().lazyProduct(y).cwiseQuotient(roots);
 }
 
 }  // namespace
@@ -247,25 +255,26 @@ void collapse(const std::vector<FutureEvidence>& parts, const std::vector<double
   const Triangle triangle(numbers, all, n, n);
   triangle.orthogonal(U);
   const Square G = triangle.upper(), H = known(G, L), one = Square::Identity(n, n);
-  const Square reached = one - U.bottomRows(all - rows).transpose() * U.bottomRows(all - rows);
+  const auto empty = U.bottomRows(all - rows);
+  const Square reached = one - empty.transpose().lazyProduct(empty);
   Square X = Square::Zero(n, n);
   Column q = Column::Zero(n);
   for_parts([&](int j, double w, const FutureEvidence& part, int first) {
     const auto own = U.middleRows(first, part.rows());
-    const Square N = reached - own.transpose() * own / w;
-    const Eigen::PartialPivLU<Square> rest(one - N * H);
-    q_of.col(j) = rest.solve(own.transpose() * r_of(part) / std::sqrt(w));
+    const Square N = reached - own.transpose().lazyProduct(own) / w;
+    const Eigen::PartialPivLU<Square> rest(one - N.lazyProduct(H));
+    q_of.col(j) = rest.solve(Column(own.transpose().lazyProduct(r_of(part)) / std::sqrt(w)));
     q += w * q_of.col(j);
     X += w * rest.solve(N);
   });
   for_parts([&](int j, double w, const FutureEvidence&, int) {
     const Column apart = q_of.col(j) - q;
-    X += w * apart * apart.transpose();
+    X += w * apart.lazyProduct(apart.transpose());
   });
   X = (0.5 * (X + X.transpose())).eval();
-  const Square Xi = Eigen::PartialPivLU<Square>(one + X * H).solve(X);
-  const Column moved = H * q;
-  finish(G, one - 0.5 * (Xi + Xi.transpose()), q - Xi * moved, seen, result);
+  const Square Xi = Eigen::PartialPivLU<Square>(one + X.lazyProduct(H)).solve(X);
+  const Column moved = H.lazyProduct(q);
+  finish(G, one - 0.5 * (Xi + Xi.transpose()), q - Xi.lazyProduct(moved), seen, result);
 }
 
 }  // namespace detail

@@ -41,31 +41,31 @@ template <ScalableUncertainty Kind>
 Verdict TrackManager<Kind>::take(Filter& filter, const Detection& detection, const Stepped& stepped) {
   if (!std::isfinite(detection.time)) throw std::invalid_argument("a measurement of a time that is not finite");
   std::size_t place = kept_;  // behind all that is not later
-  while (place > 0 && entry(place - 1).detection.time > detection.time) --place;
-  const double earliest = (place < kept_ ? entry(place).life : now_).latest();
+  while (place > 0 && buffer_[place - 1].detection.time > detection.time) --place;
+  const double earliest = (place < kept_ ? buffer_[place].life : now_).latest();
   if (detection.time < earliest)
     throw std::invalid_argument("a measurement of " + std::to_string(detection.time) + " s came after one of " +
                                 std::to_string(now_.latest()) + " s; the buffer goes back to " +
                                 std::to_string(earliest) + " s");
-  if (place < kept_) restore(filter, entry(place));
-  for (std::size_t k = kept_; k > place; --k) entry(k).detection = entry(k - 1).detection;
-  entry(place).detection = detection;
+  if (place < kept_) restore(filter, buffer_[place]);
+  for (std::size_t k = kept_; k > place; --k) buffer_[k].detection = buffer_[k - 1].detection;
+  buffer_[place].detection = detection;
   Verdict verdict = Verdict::missed;
   try {
     verdict = replay(filter, place, stepped);
     for (std::size_t k = place + 1; k <= kept_; ++k) replay(filter, k, stepped);
   } catch (...) {  // back to what was, which succeeded before
-    restore(filter, entry(place));
+    restore(filter, buffer_[place]);
     for (std::size_t k = place; k < kept_; ++k) {
-      entry(k).detection = entry(k + 1).detection;
+      buffer_[k].detection = buffer_[k + 1].detection;
       replay(filter, k, stepped);
     }
     throw;
   }
-  if (++kept_ == buffer_.size()) {  // one more than the rules keep
-    first_ = (first_ + 1) % buffer_.size();
-    --kept_;
-  }
+  if (kept_ + 1 < buffer_.size())
+    ++kept_;
+  else
+    std::rotate(buffer_.begin(), buffer_.begin() + 1, buffer_.end());  // one more than the rules keep
   return verdict;
 }
 
@@ -79,10 +79,9 @@ void TrackManager<Kind>::restore(Filter& filter, const Entry& before) {
 /// Takes an entry of the buffer, from where the target stands.
 template <ScalableUncertainty Kind>
 Verdict TrackManager<Kind>::replay(Filter& filter, std::size_t k, const Stepped& stepped) {
-  Entry& event = entry(k);
-  event.state = filter.state();
-  event.life = now_;
-  return process(filter, event.detection, stepped);
+  buffer_[k].state = filter.state();
+  buffer_[k].life = now_;
+  return process(filter, buffer_[k].detection, stepped);
 }
 
 template <ScalableUncertainty Kind>
@@ -183,9 +182,7 @@ template <ScalableUncertainty Kind>
 bool TrackManager<Kind>::transform(Filter& filter, const double* A, const double* b, int axes) {
   if (!now_.running || !now_.waiting.empty() || rules_.buffer > 0) return false;
   filter.transform(A, b, axes);
-  std::size_t k = record_.size();
-  while (k > 0) {  // back to the last start: what came before it is smoothed without what comes now
-    --k;
+  for (std::size_t k = record_.size(); k-- > 0;) {  // to the last start: what came before is smoothed without it
     RecordedStep<Kind>& step = record_[k].step;
     for (std::size_t j = 0; j < step.state.estimates.size(); ++j)
       detail::transform(A, b, axes, step.state.estimates.view(j));
@@ -200,16 +197,13 @@ void TrackManager<Kind>::smoothed(const Filter& filter,
                                   const std::function<void(const Kept&, const HybridEstimate<Kind>&)>& visit) const {
   FixedIntervalSmoother<Kind> smoother(filter);
   std::vector<HybridEstimate<Kind>> states;
-  for (std::size_t first = 0, end = 0; first < record_.size(); first = end) {
-    states.clear();
-    for (end = first; end < record_.size() && (end == first || !record_[end].is_start); ++end)
-      states.push_back(record_[end].step.state);
+  for (std::size_t first = 0, end = 1; first < record_.size(); first = end++) {
+    while (end < record_.size() && !record_[end].is_start) ++end;
+    states.resize(end - first, filter.state());
     try {
-      smoother.begin(record_[end - 1].step);
-      for (std::size_t k = end - 1; k-- > first;) {
-        smoother.step(record_[k].step);
-        states[k - first] = smoother.state();
-      }
+      smoother.back_over(
+          first, end, [&](std::size_t k) -> const auto& { return record_[k].step; },
+          [&](std::size_t k) { states[k - first] = smoother.state(); });
     } catch (const std::domain_error& error) {
       throw std::domain_error("smoothing back to the start at " + std::to_string(record_[first].time) +
                               " s: " + error.what());

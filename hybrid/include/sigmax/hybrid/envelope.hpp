@@ -3,8 +3,7 @@
 #include <cstddef>
 #include <vector>
 
-#include <sigmax/estimation/gaussian.hpp>
-#include <sigmax/estimation/refs.hpp>
+#include <sigmax/hybrid/estimates.hpp>
 
 namespace sigmax {
 
@@ -21,7 +20,7 @@ namespace sigmax {
 /// positive definite.
 class Envelope {
  public:
-  static constexpr int max_size = 32;  ///< of components
+  static constexpr int max_size = detail::small_size;  ///< of components
 
   /// No parts; those to come have `n` ≤ max_size components. Throws std::invalid_argument above.
   void clear(int n);
@@ -35,8 +34,8 @@ class Envelope {
   double match(detail::View result);
 
  private:
-  using Square = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, max_size, max_size>;
-  using Column = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, max_size, 1>;
+  using Square = detail::SmallMatrix;
+  using Column = detail::SmallVector;
 
   struct Part {
     double weight = 0.0, log_scale = 0.0;  ///< log (w / |P|^½)

@@ -79,6 +79,11 @@ class Estimates {
 
 namespace detail {
 
+/// Of at most so many components, without memory of its own.
+inline constexpr int small_size = 32;
+using SmallMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, small_size, small_size>;
+using SmallVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, small_size, 1>;
+
 /// Copies an estimate to another place of its size.
 inline void copy(ConstView from, View to) {
   std::copy_n(from.mean, from.n, to.mean);

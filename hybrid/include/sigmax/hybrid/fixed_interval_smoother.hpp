@@ -44,6 +44,17 @@ class FixedIntervalSmoother {
   /// Throws std::domain_error, naming the model, if a covariance is not positive semi-definite.
   void step(const Step& before);
 
+  /// Begins at the last of the steps `at(k)`, first ≤ k < end, and goes back to the first; calls visit(k) at each.
+  template <class At, class Visit>
+  void back_over(std::size_t first, std::size_t end, const At& at, const Visit& visit) {
+    begin(at(end - 1));
+    visit(end - 1);
+    for (std::size_t k = end - 1; k-- > first;) {
+      step(at(k));
+      visit(k);
+    }
+  }
+
   /// The smoothed state of the last step that it saw.
   const State& state() const { return state_; }
 
@@ -85,14 +96,11 @@ template <ScalableUncertainty Kind>
 std::vector<HybridEstimate<Kind>> smooth(const MultipleModelFilter<Kind>& filter,
                                          const std::vector<RecordedStep<Kind>>& record) {
   FixedIntervalSmoother<Kind> smoother(filter);
-  std::vector<HybridEstimate<Kind>> smoothed;
-  for (const auto& step : record) smoothed.push_back(step.state);
-  if (record.empty()) return smoothed;
-  smoother.begin(record.back());
-  for (std::size_t k = record.size() - 1; k-- > 0;) {
-    smoother.step(record[k]);
-    smoothed[k] = smoother.state();
-  }
+  std::vector<HybridEstimate<Kind>> smoothed(record.size(), smoother.state());
+  if (!record.empty())
+    smoother.back_over(
+        0, record.size(), [&](std::size_t k) -> const auto& { return record[k]; },
+        [&](std::size_t k) { smoothed[k] = smoother.state(); });
   return smoothed;
 }
 

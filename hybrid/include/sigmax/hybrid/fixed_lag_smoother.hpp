@@ -29,12 +29,8 @@ class FixedLagSmoother {
 
   /// Takes the next step; returns the smoothed state of the one `lag` before it, if there is one.
   const State* take(Step step) {
-    if (window_.size() <= lag_) {
-      window_.push_back(std::move(step));
-    } else {
-      window_[first_] = std::move(step);
-      first_ = (first_ + 1) % window_.size();
-    }
+    if (window_.size() > lag_) window_.erase(window_.begin());
+    window_.push_back(std::move(step));
     if (window_.size() <= lag_) return nullptr;
     back_to(0, [](std::size_t) {});
     return &smoother_.state();
@@ -43,31 +39,21 @@ class FixedLagSmoother {
   /// The smoothed states of the last steps, which `take` has not returned yet, in order.
   std::vector<State> rest() {
     const std::size_t returned = window_.size() > lag_ ? 1 : 0;
-    std::vector<State> states;
-    if (window_.size() == returned) return states;
-    for (std::size_t k = returned; k < window_.size(); ++k) states.push_back(at(k).state);
-    back_to(returned, [&](std::size_t k) { states[k - returned] = smoother_.state(); });
+    std::vector<State> states(window_.size() - returned, smoother_.state());
+    if (!states.empty()) back_to(returned, [&](std::size_t k) { states[k - returned] = smoother_.state(); });
     return states;
   }
 
  private:
-  const Step& at(std::size_t k) const { return window_[(first_ + k) % window_.size()]; }
-
   template <class Visit>
   void back_to(std::size_t earliest, const Visit& visit) {
-    std::size_t k = window_.size() - 1;
-    smoother_.begin(at(k));
-    visit(k);
-    while (k-- > earliest) {
-      smoother_.step(at(k));
-      visit(k);
-    }
+    smoother_.back_over(
+        earliest, window_.size(), [&](std::size_t k) -> const Step& { return window_[k]; }, visit);
   }
 
   FixedIntervalSmoother<Kind> smoother_;
   std::size_t lag_;
-  std::vector<Step> window_;  ///< a ring, the oldest step first
-  std::size_t first_ = 0;
+  std::vector<Step> window_;  ///< the oldest step first
 };
 
 }  // namespace sigmax

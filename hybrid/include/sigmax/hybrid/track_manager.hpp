@@ -73,7 +73,6 @@ class TrackManager {
   };
 
   std::size_t room() const;
-  Entry& entry(std::size_t k) { return buffer_[(first_ + k) % buffer_.size()]; }
   void restore(Filter& filter, const Entry& before);
 
   Verdict replay(Filter& filter, std::size_t k, const Stepped& stepped);
@@ -89,8 +88,7 @@ class TrackManager {
   Gate gate_;
   Life now_;
   std::vector<Kept> record_;
-  std::vector<Entry> buffer_;  ///< a ring, oldest first, with room for one more than the rules keep
-  std::size_t first_ = 0;
+  std::vector<Entry> buffer_;  ///< oldest first, with room for one more than the rules keep
   std::size_t kept_ = 0;
 };
 
