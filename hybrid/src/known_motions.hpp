@@ -1,7 +1,5 @@
 #pragma once
 
-#include <array>
-#include <cstddef>
 #include <initializer_list>
 #include <string_view>
 
@@ -10,7 +8,7 @@
 #include <sigmax/estimation/unscented.hpp>
 #include <sigmax/hybrid/motion_choice.hpp>
 
-/// What a row of the table of motions is, in motion_choice.cpp.
+/// How a row of the table of motions is made, in motion_choice.cpp.
 namespace sigmax::detail {
 
 using enum MotionParameter;
@@ -25,30 +23,21 @@ AnyModel in_member(const Moves& motion, MemberType member) {
   return Extended{motion};  // the Kalman filter, where motion and sensor are linear
 }
 
-/// What is to be known of a motion, and how it is made along so many axes.
-struct MotionRow {
-  KnownMotion known;
-  AnyModel (*make)(const MotionChoice& choice, int axes, MemberType member);
-
-  /// Of a class template of the number of axes: `make`, a lambda template, goes along `Least`, one or two, to three.
-  template <int Least = 1, class Make>
-  static constexpr MotionRow of(std::string_view name, bool manoeuvres, Make,
-                                std::initializer_list<MotionParameter> needs) {
-    using InThePlane = decltype(Make{}.template operator()<2>(MotionChoice{}));
-    return {{name, InThePlane::state_size / 2, Least, LinearMotion<InThePlane>, manoeuvres, parameters(needs)},
-            [](const MotionChoice& choice, int axes, MemberType member) {
-              if constexpr (Least == 1)
-                if (axes == 1) return in_member(Make{}.template operator()<1>(choice), member);
-              return axes == 2 ? in_member(Make{}.template operator()<2>(choice), member)
-                               : in_member(Make{}.template operator()<3>(choice), member);
-            }};
-  }
-
-  static constexpr std::array<bool, 4> parameters(std::initializer_list<MotionParameter> needs) {
-    std::array<bool, 4> has{};
-    for (const MotionParameter parameter : needs) has[static_cast<std::size_t>(parameter)] = true;
-    return has;
-  }
-};
+/// A motion of a class template of the number of axes: `make`, a lambda template, goes along `Least`, one or two, to
+/// three.
+template <int Least = 1, class Make>
+constexpr KnownMotion motion_row(std::string_view name, bool manoeuvres, Make,
+                                 std::initializer_list<MotionParameter> needs) {
+  using InThePlane = decltype(Make{}.template operator()<2>(MotionChoice{}));
+  KnownMotion known{name, InThePlane::state_size / 2, Least, LinearMotion<InThePlane>, manoeuvres};
+  for (const MotionParameter parameter : needs) known.has[static_cast<std::size_t>(parameter)] = true;
+  known.make = [](const MotionChoice& choice, int axes, MemberType member) {
+    if constexpr (Least == 1)
+      if (axes == 1) return in_member(Make{}.template operator()<1>(choice), member);
+    return axes == 2 ? in_member(Make{}.template operator()<2>(choice), member)
+                     : in_member(Make{}.template operator()<3>(choice), member);
+  };
+  return known;
+}
 
 }  // namespace sigmax::detail

@@ -30,35 +30,27 @@ constexpr std::array<KnownParameter, 4> parameters{{
 constexpr double degree = std::numbers::pi / 180.0;
 
 /// The motions that can be chosen by name, in the order of the documentation: a row here is all that a new one needs.
-constexpr std::array motion_rows{
-    MotionRow::of("dwna", no_manoeuvre, []<int A>(const MotionChoice& c) { return dwna<A>(c[sigma_w]); }, {sigma_w}),
-    MotionRow::of("dwpa", manoeuvre, []<int A>(const MotionChoice& c) { return dwpa<A>(c[sigma_w]); }, {sigma_w}),
-    MotionRow::of("cwna", no_manoeuvre, []<int A>(const MotionChoice& c) { return cwna<A>(c[sigma_w]); }, {sigma_w}),
-    MotionRow::of("cwpa", manoeuvre, []<int A>(const MotionChoice& c) { return cwpa<A>(c[sigma_w]); }, {sigma_w}),
-    MotionRow::of("singer", manoeuvre, []<int A>(const MotionChoice& c) { return singer<A>(1.0 / c[tau], c[sigma_w]); },
-                  {sigma_w, tau}),
-    MotionRow::of("ou_position", no_manoeuvre,
-                  []<int A>(const MotionChoice& c) { return ou_position<A>(1.0 / c[tau], c[sigma_w]); },
-                  {sigma_w, tau}),
-    MotionRow::of("ou_velocity", no_manoeuvre,
-                  []<int A>(const MotionChoice& c) { return ou_velocity<A>(1.0 / c[tau], c[sigma_w]); },
-                  {sigma_w, tau}),
-    MotionRow::of<2>("known_turn", manoeuvre,
-                     []<int A>(const MotionChoice& c) {
-                       return KnownTurn<A>{c[turn_rate] * degree, c[sigma_w]};
-                     },
-                     {sigma_w, turn_rate}),
-    MotionRow::of<2>("ct", manoeuvre,
-                     []<int A>(const MotionChoice& c) {
-                       return CoordinatedTurn<A>{c[sigma_w], c[turn_drift] * degree};
-                     },
-                     {sigma_w, turn_drift})};
-
-constexpr auto motions = [] {
-  std::array<KnownMotion, motion_rows.size()> all{};
-  for (std::size_t i = 0; i < motion_rows.size(); ++i) all[i] = motion_rows[i].known;
-  return all;
-}();
+constexpr std::array motions{
+    motion_row("dwna", no_manoeuvre, []<int A>(const MotionChoice& c) { return dwna<A>(c[sigma_w]); }, {sigma_w}),
+    motion_row("dwpa", manoeuvre, []<int A>(const MotionChoice& c) { return dwpa<A>(c[sigma_w]); }, {sigma_w}),
+    motion_row("cwna", no_manoeuvre, []<int A>(const MotionChoice& c) { return cwna<A>(c[sigma_w]); }, {sigma_w}),
+    motion_row("cwpa", manoeuvre, []<int A>(const MotionChoice& c) { return cwpa<A>(c[sigma_w]); }, {sigma_w}),
+    motion_row("singer", manoeuvre, []<int A>(const MotionChoice& c) { return singer<A>(1.0 / c[tau], c[sigma_w]); },
+               {sigma_w, tau}),
+    motion_row("ou_position", no_manoeuvre,
+               []<int A>(const MotionChoice& c) { return ou_position<A>(1.0 / c[tau], c[sigma_w]); }, {sigma_w, tau}),
+    motion_row("ou_velocity", no_manoeuvre,
+               []<int A>(const MotionChoice& c) { return ou_velocity<A>(1.0 / c[tau], c[sigma_w]); }, {sigma_w, tau}),
+    motion_row<2>("known_turn", manoeuvre,
+                  []<int A>(const MotionChoice& c) {
+                    return KnownTurn<A>{c[turn_rate] * degree, c[sigma_w]};
+                  },
+                  {sigma_w, turn_rate}),
+    motion_row<2>("ct", manoeuvre,
+                  []<int A>(const MotionChoice& c) {
+                    return CoordinatedTurn<A>{c[sigma_w], c[turn_drift] * degree};
+                  },
+                  {sigma_w, turn_drift})};
 
 }  // namespace
 
@@ -80,9 +72,7 @@ const KnownMotion& MotionChoice::known() const {
 AnyModel known_model(const MotionChoice& choice, int axes, MemberType member) {
   if (axes < choice.known().least_axes)
     throw std::invalid_argument("motion '" + choice.name + "' turns in a plane; it does not go along one axis");
-  std::size_t row = 0;
-  while (motion_rows[row].known.name != choice.name) ++row;
-  return motion_rows[row].make(choice, axes, member);
+  return choice.known().make(choice, axes, member);
 }
 
 }  // namespace sigmax

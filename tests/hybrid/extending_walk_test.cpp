@@ -34,11 +34,11 @@ TEST(ExtendingWalk, ALawOfMotion) {
 
 TEST(ExtendingWalk, ARowOfTheMotionsThatHaveNames) {
   using namespace detail;
-  constexpr auto row = MotionRow::of(
-      "drift", no_manoeuvre, []<int A>(const MotionChoice& c) { return IndependentAxes<A, Drift>{Drift{c[sigma_w]}}; },
-      {sigma_w});
-  static_assert(row.known.derivatives == 1 && row.known.linear && !row.known.manoeuvres);
-  EXPECT_TRUE(row.known.has_parameter(sigma_w) && !row.known.has_parameter(tau));
+  constexpr auto row =
+      motion_row("drift", no_manoeuvre,
+                 []<int A>(const MotionChoice& c) { return IndependentAxes<A, Drift>{Drift{c[sigma_w]}}; }, {sigma_w});
+  static_assert(row.derivatives == 1 && row.linear && !row.manoeuvres);
+  EXPECT_TRUE(row.has_parameter(sigma_w) && !row.has_parameter(tau));
   for (const int axes : {1, 2, 3}) {
     const AnyModel drift = row.make(MotionChoice{}, axes, MemberType::ekf);
     EXPECT_EQ(drift.name(), "drift");

@@ -25,6 +25,11 @@ struct KnownParameter {
 /// All parameters, in the order of MotionParameter.
 std::span<const KnownParameter> motion_parameters();
 
+/// The filter of a model that is not linear, or of a sensor that is not; the rest has the Kalman filter.
+enum class MemberType { kf, ekf, ukf, ckf };
+
+struct MotionChoice;
+
 /// A motion that can be chosen by its name.
 struct KnownMotion {
   std::string_view name;
@@ -33,6 +38,7 @@ struct KnownMotion {
   bool linear = true;
   bool manoeuvres = false;    ///< whether it stands for a manoeuvre beside a model that does not
   std::array<bool, 4> has{};  ///< which parameters
+  AnyModel (*make)(const MotionChoice&, int axes, MemberType) = nullptr;  ///< see known_model
   bool has_parameter(MotionParameter parameter) const { return has[static_cast<std::size_t>(parameter)]; }
 };
 
@@ -41,9 +47,6 @@ std::span<const KnownMotion> known_motions();
 
 /// The motion of this name, or null.
 const KnownMotion* known_motion(std::string_view name);
-
-/// The filter of a model that is not linear, or of a sensor that is not; the rest has the Kalman filter.
-enum class MemberType { kf, ekf, ukf, ckf };
 
 /// A motion by its name with its parameters; those that it does not have are ignored.
 struct MotionChoice {
