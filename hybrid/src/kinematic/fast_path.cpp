@@ -123,15 +123,13 @@ unsigned FastPath<Kind>::step_block(float* block, const float* measurements) con
 template <ScalableUncertainty Kind>
 bool FastPath<Kind>::output(const State& state, std::size_t version, View result) const {
   if (!outputs_) return false;
-  const auto put_out = [&](const Block& block) {
-    functions_->output(plan_, block.numbers, state.most_likely_mode, result);
-    return true;
-  };
-  for (const Block& block : blocks_)
-    if (version > 0 && block.version == version) return put_out(block);
-  Block block;
-  write(state, block);
-  return put_out(block);
+  Block own;
+  const Block* block = &own;
+  for (const Block& kept : blocks_)
+    if (version > 0 && kept.version == version) block = &kept;
+  if (block == &own) write(state, own);
+  functions_->output(plan_, block->numbers, state.most_likely_mode, result);
+  return true;
 }
 
 template class FastPath<Random>;

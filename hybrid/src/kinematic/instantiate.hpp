@@ -107,18 +107,13 @@ unsigned step_block(const StepPlan& plan, Number* block, const Number* measureme
   V next[max_modes * L::size(3) / lanes + max_modes + 1];
   Step<L, Algebra> step(plan, block, reinterpret_cast<Number*>(next));
   Measured<V, A> measured;
-  for (int i = 0; i < A; ++i) measured.z[i] = read<V>(measurements, i);
-  for (int i = 0; i < A * A; ++i) measured.R[i] = read<V>(measurements, A + i);
-  measured.there = read<V>(measurements, A + A * A);
+  __builtin_memcpy(&measured, measurements, sizeof(measured));
 
-  bool some = false;
-  for (int lane = 0; lane < lanes; ++lane) some |= measurements[(A + A * A) * lanes + lane] > 0;
-
+  const bool some = failures<V>(measured.there == V{}) != 0;
   const Mask<V> good = step.take(
       some ? &measured : nullptr, [](auto...) {}, [] {});
   const unsigned bad = failures<V>(good);
-  int count = plan.modes + 1;
-  for (int j = 0; j < plan.modes; ++j) count += L::size(plan.order_of(j)) / lanes;
+  const auto count = (step.for_modes([](auto...) {}) - step.next) / lanes + plan.modes + 1;
   for (int t = 0; t < count; ++t)  // what is not good stays as it was
     write(block, t, bad == 0 ? next[t] : select(good, next[t], read<V>(block, t)));
   return bad;

@@ -60,10 +60,7 @@ struct Stored {
 /// action(order), a constant.
 template <class Action>
 inline void with_order(int order, const Action& action) {
-  if (order == 2)
-    action(Constant<2>{});
-  else
-    action(Constant<3>{});
+  order == 2 ? action(Constant<2>{}) : action(Constant<3>{});
 }
 
 /// Index of the greatest weight, as a number; by logarithms it is the same.
@@ -108,29 +105,22 @@ struct Mixture {
   using OfPairs = typename L::OfPairs;
   static constexpr int size = order * L::axis_vectors;
 
-  const StepPlan& plan;
-  const Stored<L>* const models;
+  const Track<L, Modes>& track;
   const Stored<L>& lender;  ///< an estimate of all derivatives; a part has so many times what it lacks
-  const NumberOf<Number> lent, lent_variance;
 
   OfAxes x[size];
-  const int modes = Modes ? Modes : plan.modes;
+  const int modes = Modes ? Modes : track.plan.modes;
   int first = 0, last = modes;
   Number weight[max_modes];
   int spreads = 0;
   OfAxes difference[max_modes][size], scaled[max_modes][size];
 
-  Mixture(const Track<L, Modes>& track, int lending)
-      : plan(track.plan),
-        models(track.estimate),
-        lender(models[lending]),
-        lent(track.lent),
-        lent_variance(track.lent_variance) {}
+  Mixture(const Track<L, Modes>& of, int lending) : track(of), lender(of.estimate[lending]) {}
 
   /// Component i of the mean of model l, which has the first n derivatives.
   template <int n>
   OfAxes mean_of(int l, int i) const {
-    return i < n * L::axis_vectors ? read<OfAxes>(models[l].x, i) : lent * read<OfAxes>(lender.x, i);
+    return i < n * L::axis_vectors ? read<OfAxes>(track.estimate[l].x, i) : track.lent * read<OfAxes>(lender.x, i);
   }
 
   /// (58), (59) or (67), (68), one part after the other: a pair with the weights u and w has the spread
@@ -140,7 +130,7 @@ struct Mixture {
     for (int l = 0; l < modes; ++l) {
       const Number w = weights[l], total = before + w;
       weight[l] = w * scale;
-      with_order(plan.order_of(l), [&](auto n) {
+      with_order(track.plan.order_of(l), [&](auto n) {
         if (l == 0) {
           SIGMAX_UNROLL for (int i = 0; i < size; ++i) x[i] = mean_of<n>(l, i);
           return;
@@ -163,7 +153,7 @@ struct Mixture {
     for (int l = 0; l < modes; ++l) {
       const auto its = selected == all<Number>(l);
       weight[l] = select(its, all<Number>(1.0), Number{});
-      with_order(plan.order_of(l), [&](auto n) {
+      with_order(track.plan.order_of(l), [&](auto n) {
         SIGMAX_UNROLL for (int i = 0; i < size; ++i) x[i] = select(its, mean_of<n>(l, i), x[i]);
       });
     }
@@ -173,11 +163,12 @@ struct Mixture {
   void read_pair(int k, OfPairs (&M)[order][order]) const {
     SIGMAX_UNROLL for (int a = 0; a < order; ++a) SIGMAX_UNROLL for (int b = 0; b < order; ++b) M[a][b] = OfPairs{};
     for (int l = first; l < last; ++l)
-      with_order(plan.order_of(l), [&](auto n) {
+      with_order(track.plan.order_of(l), [&](auto n) {
         const Number w = weight[l];
         SIGMAX_UNROLL for (int a = 0; a < order; ++a) SIGMAX_UNROLL for (int b = 0; b < order; ++b) {
-          const auto share = lent + (a == b && L::has_diagonal(k) ? lent_variance - lent : 0) * L::diagonal();
-          if (a < n && b < n) M[a][b] += w * models[l](a, b, k);
+          const auto more = a == b && L::has_diagonal(k) ? track.lent_variance - track.lent : 0;
+          const auto share = track.lent + more * L::diagonal();
+          if (a < n && b < n) M[a][b] += w * track.estimate[l](a, b, k);
           if (a >= n && b >= n) M[a][b] += w * share * lender(a, b, k);
         }
       });
@@ -252,35 +243,33 @@ struct Innovated {
 
 /// The innovation of a prediction, (29), (30).
 template <class L, int order, class V, int A>
-inline void innovate(const Measured<V, A>& measured, Estimate<L, order> P, Innovated<V, A>& innovated) {
+SIGMAX_WITHIN Innovated<V, A> innovate(const Measured<V, A>& measured, Estimate<L, order> P) {
   const V one = all<V>(1.0);
-  V factor[A][A], inverse[A], whitened[A];
-  V condition = one, precision = one, squared_distance{}, least = one;
+  V factor[A][A];
+  Innovated<V, A> result;
+  result.condition = result.precision = result.least = one;
+  result.squared_distance = V{};
   SIGMAX_UNROLL for (int i = 0; i < A; ++i) {
-    innovated.residual[i] = whitened[i] = measured.z[i] - L::at(P.x, i);
-    SIGMAX_UNROLL for (int k = 0; k <= i; ++k) factor[i][k] = innovated.S[triangle(i) + k] =
+    result.residual[i] = result.whitened[i] = measured.z[i] - L::at(P.x, i);
+    SIGMAX_UNROLL for (int k = 0; k <= i; ++k) factor[i][k] = result.S[triangle(i) + k] =
         L::at(P.P, triangle(i) + k) + measured.R[i + k * A];
     V pivot = factor[i][i];
     SIGMAX_UNROLL for (int k = 0; k < i; ++k) {
       V rest = factor[i][k];
       SIGMAX_UNROLL for (int m = 0; m < k; ++m) rest -= factor[i][m] * factor[m][k];
       factor[i][k] = rest;
-      rest *= inverse[k];
+      rest *= result.inverse[k];
       pivot -= factor[i][k] * rest;
-      innovated.L[k][i] = factor[k][i] = rest;  // L itself above, L D below
-      whitened[i] -= rest * whitened[k];
+      result.L[k][i] = factor[k][i] = rest;  // L itself above, L D below
+      result.whitened[i] -= rest * result.whitened[k];
     }
-    innovated.inverse[i] = inverse[i] = one / pivot;
-    innovated.whitened[i] = whitened[i];
-    least = lesser(pivot, least);
-    condition *= factor[i][i] * inverse[i];
-    precision *= inverse[i];
-    squared_distance += whitened[i] * whitened[i] * inverse[i];
+    result.inverse[i] = one / pivot;
+    result.least = lesser(pivot, result.least);
+    result.condition *= factor[i][i] * result.inverse[i];
+    result.precision *= result.inverse[i];
+    result.squared_distance += result.whitened[i] * result.whitened[i] * result.inverse[i];
   }
-  innovated.squared_distance = squared_distance;
-  innovated.precision = precision;
-  innovated.condition = condition;
-  innovated.least = least;
+  return result;
 }
 
 /// (31), (32) with Y = P Hᵀ L⁻ᵀ: x += Y D⁻¹ L⁻¹ ν, P −= Y D⁻¹ Yᵀ, to which the rounding of the prior is added;
@@ -428,19 +417,19 @@ struct Step : Track<L, Modes> {
       total = plus(total, prior[j]);
 
       // Step 2: the model predicts, (60), and updates, (61), see below.
-      if constexpr (one_track)
-        predict(plan.law[j], mixed<order>(j, coming), own);
-      else
-        predict_apart(plan.law[j], mixed<order>(j, coming), own);
+      const auto start = mixed<order>(j, coming);
+      one_track ? predict(plan.law[j], start, own) : predict_apart(plan.law[j], start, own);
       predicted(j, own);
     });
 
     // Step 3: the weights of the modes, (62) or (63), and the most likely one, (64).
     const Mask<V> there = measured ? measured->there > V{} : V{} > V{};
     V nearest{};
-    if (measured) for_modes([&](int j, auto own) { innovate(*measured, own, innovated[j]); });
-    for (int j = 0; measured && j < modes; ++j)
-      nearest = j == 0 ? innovated[j].squared_distance : lesser(innovated[j].squared_distance, nearest);
+    if (measured)
+      for_modes([&](int j, auto own) {
+        innovated[j] = innovate(*measured, own);
+        nearest = j == 0 ? innovated[j].squared_distance : lesser(innovated[j].squared_distance, nearest);
+      });
     V sum{};
     for (int j = 0; j < modes; ++j) {
       posterior[j] = prior[j];

@@ -76,6 +76,12 @@ inline V root(V x) {
   }
 }
 
+/// The same bits as another type.
+template <class To, class From>
+inline To as(From from) {
+  return __builtin_bit_cast(To, from);
+}
+
 /// exp(x) of x ≤ 0 to an ulp or two: x = n log 2 + r, Taylor's series of r in its even and odd terms, and n into the
 /// exponent. Zero where the result would be subnormal.
 template <int Terms, class V, class Number>
@@ -95,16 +101,8 @@ inline V exponentials(V x, Number least, Number shift, Number high, Number low, 
     factorial /= k > 1 ? k - 1 : 1;
   }
   const V series = even + r * odd;
-  Bits exponent, bits;
-  const V shifts = V{} + shift;
-  __builtin_memcpy(&exponent, &shifted, sizeof(V));
-  __builtin_memcpy(&bits, &shifts, sizeof(V));
-  exponent = (exponent - bits) << fraction_bits;
-  __builtin_memcpy(&bits, &series, sizeof(V));
-  bits += exponent;
-  V result;
-  __builtin_memcpy(&result, &bits, sizeof(V));
-  return select<V>(x > V{} + least, result, V{});
+  const Bits exponent = (as<Bits>(shifted) - as<Bits>(V{} + shift)) << fraction_bits;
+  return select<V>(x > V{} + least, as<V>(as<Bits>(series) + exponent), V{});
 }
 template <class V>
 inline V exponential(V x) {
@@ -119,17 +117,9 @@ inline Doubles logarithm(Doubles x) {
   using Bits = Mask<Doubles>;
   constexpr double shift = 0x1.8p52;
   constexpr long long least = 0x3fe6a09e667f3bcdLL, bias = 1024;  // √½
-  const Doubles shifts = all<Doubles>(shift);
-  Bits bits, exponent, shifted;
-  __builtin_memcpy(&bits, &x, sizeof(Doubles));
-  __builtin_memcpy(&shifted, &shifts, sizeof(Doubles));
-  exponent = ((bits - least + (bias << 52)) >> 52) - bias;
-  bits -= exponent << 52;
-  shifted += exponent;
-  Doubles m, n;
-  __builtin_memcpy(&m, &bits, sizeof(Doubles));
-  __builtin_memcpy(&n, &shifted, sizeof(Doubles));
-  n -= shift;
+  const Bits exponent = ((as<Bits>(x) - least + (bias << 52)) >> 52) - bias;
+  const Doubles m = as<Doubles>(as<Bits>(x) - (exponent << 52));
+  const Doubles n = as<Doubles>(as<Bits>(all<Doubles>(shift)) + exponent) - shift;
   const Doubles s = (m - 1.0) / (m + 1.0), square = s * s;
   Doubles even{}, odd{};
   for (int k = 21; k > 1; k -= 4) {

@@ -106,12 +106,19 @@ struct InSpace {
   static double at(const OfPairs* numbers, int k) { return (*numbers)[k]; }
   static OfAxes from(const double* numbers, int) { return OfAxes{numbers[0], numbers[1], numbers[2], 0.0}; }
 
+  /// The covariances of derivative a along axis u with derivative b along each axis, of P(a, b) and P(b, a), which has
+  /// the diagonal if so.
+  template <int u, bool diagonal_of_second>
+  static OfAxes row(OfPairs first, OfPairs second) {
+    constexpr auto place = [](int v) {
+      return v < u ? triangle(u) + v : triangle(v) + u + (v > u || diagonal_of_second ? 8 : 0);
+    };
+    return __builtin_shufflevector(first, second, place(0), place(1), place(2), 6);
+  }
   template <class P>
   static OfAxes with_position(const P& covariance, int a, int, int m) {
     const OfPairs low = covariance(a, 0, 0), high = covariance(0, a, 0);
-    if (m == 0) return __builtin_shufflevector(low, high, 0, 1, 3, 6);
-    if (m == 1) return __builtin_shufflevector(low, high, 9, 2, 4, 6);
-    return __builtin_shufflevector(low, high, 11, 12, 5, 6);
+    return m == 0 ? row<0, true>(high, low) : m == 1 ? row<1, true>(high, low) : row<2, true>(high, low);
   }
 
   template <class Estimate>
@@ -136,18 +143,11 @@ struct InSpace {
   static void read(Estimate from, View to) {
     constexpr int order = Estimate::derivatives;
     read_mean(from, to.mean);
-    for_each<order * 3>([&](auto row) {
-      constexpr int a = row / 3, u = row % 3;
+    for_each<order * 3>([&](auto i) {
+      constexpr int a = i / 3, u = i % 3;
       for_each<order>([&](auto b) {
-        const OfPairs low = from(a, b, 0), high = from(b, a, 0);
-        OfAxes numbers;
-        if constexpr (u == 2)
-          numbers = __builtin_shufflevector(low, high, 3, 4, b > a ? 13 : 5, 6);
-        else if constexpr (u == 1)
-          numbers = __builtin_shufflevector(low, high, 1, b > a ? 10 : 2, 12, 6);
-        else
-          numbers = __builtin_shufflevector(low, high, b > a ? 8 : 0, 9, 11, 6);
-        put<row + 1 == order * 3 && b + 1 == order>(to.covariance + (row * order + b) * 3, numbers);
+        const OfAxes numbers = row<u, (b > a)>(from(a, b, 0), from(b, a, 0));
+        put<i + 1 == order * 3 && b + 1 == order>(to.covariance + (i * order + b) * 3, numbers);
       });
     });
   }
