@@ -56,23 +56,6 @@ class ChosenStart {
   const Estimates& nowhere() const { return nowhere_; }
 
  private:
-  /// Of a model's n leading components, and of the rate of turn behind them, which no start tells.
-  template <class Leading>
-  Estimates estimates(const Leading& leading) const {
-    const double sigma_turn = choice_.start_sigma_turn_deg_s * std::numbers::pi / 180.0;
-    Estimates result = nowhere_;
-    for (std::size_t j = 0; j < result.size(); ++j) {
-      const KnownMotion& motion = choice_.motions[j].known();
-      const int n = motion.derivatives * choice_.axes;
-      auto own = result[j];
-      own.mean.setZero();
-      own.covariance.setZero();
-      leading(n, own);
-      if (!motion.linear) own.covariance(n, n) = sigma_turn * sigma_turn;
-    }
-    return result;
-  }
-
   /// From the last three positions at different times.
   std::optional<StartAt<Estimates>> from_points(std::span<const Detection> detections) const {
     const int axes = choice_.axes;
@@ -114,29 +97,40 @@ class ChosenStart {
     return leading(bearings.back().time, wide, narrow);
   }
 
-  /// Each model has the leading components of the one that is wide, if it needs them all, or else of the narrow one.
-  std::optional<StartAt<Estimates>> leading(double time, const detail::View& wide, const detail::View& narrow) const {
-    return StartAt<Estimates>{time, estimates([&](int n, EstimateAt<double>& own) {
-                                const detail::View& from = n == wide.n ? wide : narrow;
-                                for (int k = 0; k < n; ++k) {
-                                  own.mean(k) = from.mean[k];
-                                  for (int i = 0; i < n; ++i) own.covariance(i, k) = from.covariance[i + k * from.n];
-                                }
-                              })};
+  /// Each model has the leading components of the one that is wide, if it needs them all, or else of the narrow one;
+  /// and behind them the rate of turn, which no start tells.
+  StartAt<Estimates> leading(double time, const EstimateAt<double>& wide, const EstimateAt<double>& narrow) const {
+    const double sigma_turn = choice_.start_sigma_turn_deg_s * std::numbers::pi / 180.0;
+    StartAt<Estimates> start{time, nowhere_};
+    for (std::size_t j = 0; j < nowhere_.size(); ++j) {
+      const KnownMotion& motion = choice_.motions[j].known();
+      const int n = motion.derivatives * choice_.axes;
+      const auto& from = n == wide.size() ? wide : narrow;
+      auto own = start.estimates[j];
+      own.mean.setZero();
+      own.covariance.setZero();
+      own.mean.head(n) = from.mean.head(n);
+      own.covariance.topLeftCorner(n, n) = from.covariance.topLeftCorner(n, n);
+      if (!motion.linear) own.covariance(n, n) = sigma_turn * sigma_turn;
+    }
+    return start;
   }
 
   /// A given start without a time waits for the second detection: it is one step before the first.
   std::optional<StartAt<Estimates>> given(std::span<const Detection> detections) const {
     if (!choice_.start_time_s && detections.size() < 2) return std::nullopt;
     const double time = choice_.start_time_s ? *choice_.start_time_s : 2.0 * detections[0].time - detections[1].time;
-    return StartAt<Estimates>{time, estimates([&](int n, EstimateAt<double>& own) {
-                                for (int k = 0; k < n; ++k) {  // what is given always speaks of three axes
-                                  const auto place = static_cast<std::size_t>(k / choice_.axes * 3 + k % choice_.axes);
-                                  own.mean(k) = choice_.start_mean[place];
-                                  own.covariance(k, k) = choice_.start_covariance_diagonal[place];
-                                }
-                              }),
-                              false};
+    const int n = 3 * choice_.axes;
+    double mean[9], covariance[81] = {};
+    for (int k = 0; k < n; ++k) {  // what is given always speaks of three axes
+      const auto place = static_cast<std::size_t>(k / choice_.axes * 3 + k % choice_.axes);
+      mean[k] = choice_.start_mean[place];
+      covariance[k + k * n] = choice_.start_covariance_diagonal[place];
+    }
+    const detail::View all{mean, covariance, n};
+    StartAt<Estimates> start = leading(time, all, all);
+    start.from_detections = false;
+    return start;
   }
 
   TargetChoice choice_;
@@ -235,13 +229,14 @@ struct AnyTarget::Chosen {
   explicit Chosen(const TargetChoice& choice)
       : followed(sigmax::followed(choice)), axes(choice.axes), most_likely_output(choice.most_likely_output) {}
 
-  template <class Visit>
-  decltype(auto) visit(const Visit& act) {
+  /// act(filter and life).
+  template <class Act>
+  decltype(auto) visit(const Act& act) {
     return std::visit(act, followed);
   }
 
-  const detail::Life& now() const {
-    return std::visit([](const auto& target) -> const detail::Life& { return target.life.now(); }, followed);
+  const detail::Life& now() {
+    return visit([](const auto& target) -> const auto& { return target.life.now(); });
   }
 
   /// Writes the output of a state, the filter's own or another.
@@ -294,11 +289,10 @@ bool AnyTarget::transform(std::span<const double> A, std::span<const double> b) 
   const auto n = static_cast<std::size_t>(axes);
   if (A.size() != n * n || b.size() != n)
     throw std::invalid_argument("a transformation of " + std::to_string(axes) + " axes has as many rows and columns");
-  double by_columns[9];
-  for (std::size_t i = 0; i < n; ++i)
-    for (std::size_t k = 0; k < n; ++k) by_columns[i + k * n] = A[i * n + k];
+  const SquareMatrix<Eigen::Dynamic, 3> by_columns =
+      Eigen::Map<const Eigen::MatrixXd>(A.data(), axes, axes).transpose();
   return chosen_->visit(
-      [&](auto& target) { return target.life.transform(*target.filter, by_columns, b.data(), axes); });
+      [&](auto& target) { return target.life.transform(*target.filter, by_columns.data(), b.data(), axes); });
 }
 
 TargetPoint AnyTarget::output() const {
@@ -311,14 +305,10 @@ void AnyTarget::output(TargetPoint& result) const {
   chosen_->visit([&](const auto& target) {
     const auto& filter = *target.filter;
     result.time = target.life.now().time;
-    result.nis.reset();
-    result.normalized_innovation.clear();
-    if (filter.accepted()) {
-      double numbers[max_measurement_size];
-      const int m = filter.normalized_innovation(numbers);
-      result.normalized_innovation.assign(numbers, numbers + m);
-      result.nis = filter.nis();
-    }
+    double numbers[max_measurement_size];
+    const int m = filter.accepted() ? filter.normalized_innovation(numbers) : 0;
+    result.normalized_innovation.assign(numbers, numbers + m);
+    result.nis = filter.accepted() ? std::optional(filter.nis()) : std::nullopt;
     result.log_evidence = chosen_->compared ? std::optional(filter.log_evidence()) : std::nullopt;
     result.log_score = chosen_->compared ? std::optional(filter.log_score()) : std::nullopt;
     chosen_->tell(filter, filter.state(), result);

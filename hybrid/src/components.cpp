@@ -33,15 +33,18 @@ void Components::carry(const Estimates& estimates, const std::size_t* carriers, 
   }
 }
 
-void Components::share(ConstView start, Estimates& shares) const {
+Estimates Components::shares(ConstView start) const {
   if (start.n != size())
     throw std::invalid_argument("the start has " + std::to_string(start.n) + " components, but the models have " +
                                 std::to_string(size()));
-  for (std::size_t j = 0; j < shares.size(); ++j) {
-    const View own = shares.view(j);
-    const Mixture::Part part{start, &start_[j]};
+  Estimates shares;
+  for (const Correspondence& of_model : start_) {
+    shares.add(static_cast<int>(of_model.in_source.size()));
+    const View own = shares.view(shares.size() - 1);
+    const Mixture::Part part{start, &of_model};
     Mixture{own, {&part, 1}}.read(part, own);
   }
+  return shares;
 }
 
 Estimates estimates_of(const std::vector<AnyModel>& models) {
@@ -61,12 +64,6 @@ Estimates pairs_of(const Estimates& estimates) {
   for (std::size_t i = 0; i < estimates.size(); ++i)
     for (std::size_t j = 0; j < estimates.size(); ++j) pairs.add(estimates.view(i).n);
   return pairs;
-}
-
-Estimates shares_of(const std::vector<AnyModel>& models, ConstView start) {
-  Estimates result = estimates_of(models);
-  Components(models).share(start, result);
-  return result;
 }
 
 void write_entries(const std::vector<AnyModel>& models, const EntryPrior& prior, double scale, Estimates& entries) {

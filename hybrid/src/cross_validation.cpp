@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <stdexcept>
 #include <string>
 
@@ -43,26 +42,23 @@ double mean_loss(const RowLosses& losses, const RowCounts& counts) {
 }
 
 MeanDifference mean_difference(const RowLosses& a, const RowLosses& b) {
-  constexpr std::size_t most_blocks = 20;
+  constexpr std::ptrdiff_t most_blocks = 20;
   std::vector<double> differences;
   for (std::size_t r = 0; r < a.size(); ++r)
     for (std::size_t k = 0; k < a[r].size(); ++k)
       if (!std::isnan(a[r][k]) && !std::isnan(b[r][k])) differences.push_back(a[r][k] - b[r][k]);
-  const std::size_t rows = differences.size(), blocks = std::min(most_blocks, rows);
-  MeanDifference result;
-  if (rows == 0) return result;
-  result.mean = std::accumulate(differences.begin(), differences.end(), 0.0) / static_cast<double>(rows);
+  const auto rows = std::ssize(differences), blocks = std::min(most_blocks, rows);
+  if (rows == 0) return {};
+  const Eigen::Map<const Eigen::ArrayXd> apart(differences.data(), rows);
+  const double mean = apart.mean();
   double squares = 0.0;
-  for (std::size_t block = 0; block < blocks; ++block) {
-    const std::size_t from = block * rows / blocks, to = (block + 1) * rows / blocks;
-    double sum = 0.0;
-    for (std::size_t k = from; k < to; ++k) sum += differences[k] - result.mean;
+  for (std::ptrdiff_t block = 0; block < blocks; ++block) {
+    const auto from = block * rows / blocks, to = (block + 1) * rows / blocks;
+    const double sum = (apart.segment(from, to - from) - mean).sum();
     squares += sum * sum;
   }
-  if (blocks > 1)
-    result.error =
-        std::sqrt(squares * static_cast<double>(blocks) / static_cast<double>(blocks - 1)) / static_cast<double>(rows);
-  return result;
+  const double more = static_cast<double>(blocks) / static_cast<double>(std::max<std::ptrdiff_t>(blocks - 1, 1));
+  return {mean, blocks > 1 ? std::sqrt(squares * more) / static_cast<double>(rows) : 0.0};
 }
 
 Selected select_settings(std::span<const RowLosses> held_out, std::span<const std::size_t> numbers) {
@@ -137,15 +133,15 @@ LossSurface::Shape LossSurface::shape(const RowCounts& counts, std::size_t toget
       const Eigen::VectorXd least = -root.solve(sum(told));
       const Eigen::MatrixXd inverse = root.solve(Eigen::MatrixXd::Identity(least.size(), least.size()));
       const Eigen::VectorXd variance = (inverse * squares(told, told) * inverse).diagonal();
-      for (std::size_t i = 0; i < told.size(); ++i) {
-        const auto at = static_cast<std::size_t>(told[i]);
-        const auto of = static_cast<Eigen::Index>(i);
-        result.least[at] = std::clamp(least[of], -4.0 * step_, 4.0 * step_);
-        result.error[at] = std::sqrt(variance[of]);
-        result.ridges[at].assign(numbers_, 0.0);
-        for (std::size_t k = 0; k < told.size(); ++k)
-          result.ridges[at][static_cast<std::size_t>(told[k])] =
-              inverse(static_cast<Eigen::Index>(k), of) / inverse(of, of);
+      const auto among_all = [&](std::vector<double>& all, const Eigen::VectorXd& numbers) {
+        Eigen::Map<Eigen::VectorXd>(all.data(), n)(told) = numbers;
+      };
+      among_all(result.least, least.cwiseMax(-4.0 * step_).cwiseMin(4.0 * step_));
+      among_all(result.error, variance.cwiseSqrt());
+      for (Eigen::Index i = 0; i < least.size(); ++i) {
+        auto& ridge = result.ridges[static_cast<std::size_t>(told[static_cast<std::size_t>(i)])];
+        ridge.assign(numbers_, 0.0);
+        among_all(ridge, inverse.col(i) / inverse(i, i));
       }
       return result;
     }

@@ -2,11 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <exception>
+#include <future>
 #include <limits>
 #include <stdexcept>
 #include <string>
-#include <thread>
 
 #include <sigmax/estimation/dense.hpp>
 #include <sigmax/hybrid/sound.hpp>
@@ -151,20 +150,14 @@ void TrackBank<Kind, Number>::run(double dt, std::span<const ScanOfTracks<Number
   const bool fast = general_.prepare_fast_path(dt);
   threads = std::clamp<std::size_t>(threads, 1, std::max<std::size_t>(blocks(), 1));
   if (threads == 1) return run_blocks(dt, scans, fast, 0, blocks(), general_);
-  std::vector<std::exception_ptr> errors(threads);
-  std::vector<std::jthread> team;
+  std::vector<std::future<void>> team;
   for (std::size_t t = 0; t < threads; ++t)
-    team.emplace_back([&, t] {
-      try {
-        Filter general = general_;
-        run_blocks(dt, scans, fast, blocks() * t / threads, blocks() * (t + 1) / threads, general);
-      } catch (...) {
-        errors[t] = std::current_exception();
-      }
-    });
-  team.clear();  // joins
-  for (const std::exception_ptr& error : errors)
-    if (error) std::rethrow_exception(error);
+    team.push_back(std::async(std::launch::async, [&, t] {
+      Filter general = general_;
+      run_blocks(dt, scans, fast, blocks() * t / threads, blocks() * (t + 1) / threads, general);
+    }));
+  for (auto& each : team) each.wait();
+  for (auto& each : team) each.get();
 }
 
 template <ScalableUncertainty Kind, std::floating_point Number>

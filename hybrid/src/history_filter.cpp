@@ -20,10 +20,11 @@ HistorySet::HistorySet(const Estimates& starts, std::size_t room) : histories_(r
   resize(starts.size());
 }
 
-std::size_t best_of(std::span<const History> histories) {
-  std::size_t best = 0;
-  for (std::size_t h = 1; h < histories.size(); ++h)
-    if (histories[h].log_weight > histories[best].log_weight) best = h;
+std::size_t best_of(std::span<const History> histories, std::optional<std::size_t> mode) {
+  std::size_t best = histories.size();
+  for (std::size_t h = 0; h < histories.size(); ++h)
+    if (!mode || histories[h].mode == *mode)
+      if (best == histories.size() || histories[h].log_weight > histories[best].log_weight) best = h;
   return best;
 }
 
@@ -49,25 +50,24 @@ HistoriesOfModes<Kind>::HistoriesOfModes(const std::vector<AnyModel>& models, Mo
   for (std::size_t s = 0; s < branches_; ++s)
     detail::write_entries(models, interaction.entry, interaction.entry.scales[s], entries_[s]);
   for (std::size_t l = 0; l < modes(); ++l)
-    for (std::size_t j = 0; j < modes(); ++j) {
-      const auto& in_source = this->correspondences(j)[l].in_source;
-      lacks_[l * modes() + j] = std::count(in_source.begin(), in_source.end(), -1) > 0;
-    }
+    for (std::size_t j = 0; j < modes(); ++j)
+      lacks_[l * modes() + j] = std::ranges::count(this->correspondences(j)[l].in_source, -1) > 0;
   begin();
 }
 
 template <ScalableUncertainty Kind>
 void HistoriesOfModes<Kind>::require_rules() const {
-  if (rules_.histories < modes())
-    throw std::invalid_argument(std::to_string(rules_.histories) + " histories of " + std::to_string(modes()) +
-                                " modes; expected at least one of each");
-  if (!(rules_.least_log_weight < 0.0))
-    throw std::invalid_argument("histories are dropped below a weight that is not below the best one's");
-  if (!(rules_.cut >= 0.0 && rules_.cut <= 1.0))
-    throw std::invalid_argument("the cut of the output is " + std::to_string(rules_.cut) + "; expected 0 to 1");
-  if (!(rules_.tempering > 0.0 && rules_.tempering <= 1.0))
-    throw std::invalid_argument("the likelihood counts to the power of " + std::to_string(rules_.tempering) +
-                                "; expected more than 0, at most 1");
+  using std::to_string;
+  const auto require = [](bool holds, const std::string& what) {
+    if (!holds) throw std::invalid_argument(what);
+  };
+  require(rules_.histories >= modes(), to_string(rules_.histories) + " histories of " + to_string(modes()) +
+                                           " modes; expected at least one of each");
+  require(rules_.least_log_weight < 0.0, "histories are dropped below a weight that is not below the best one's");
+  require(rules_.cut >= 0.0 && rules_.cut <= 1.0,
+          "the cut of the output is " + to_string(rules_.cut) + "; expected 0 to 1");
+  require(rules_.tempering > 0.0 && rules_.tempering <= 1.0,
+          "the likelihood counts to the power of " + to_string(rules_.tempering) + "; expected more than 0, at most 1");
 }
 
 template <ScalableUncertainty Kind>
@@ -76,10 +76,9 @@ bool HistoriesOfModes<Kind>::measure(double dt, const Seen& seen, double limit) 
   HistorySet& set = next().histories;
   compared_ = set.size();
   for (std::size_t h = 0; h < set.size(); ++h) {
-    AnyInnovation& innovation = innovation_of_[h];
-    this->update_model(set[h].mode, predicted_.view(h), seen, set.view(h), innovation);
+    this->update_model(set[h].mode, predicted_.view(h), seen, set.view(h), innovation_of_[h]);
     log_prior_[h] = set[h].log_weight;
-    set[h].log_weight += rules_.tempering * innovation.log_likelihood;
+    set[h].log_weight += rules_.tempering * innovation_of_[h].log_likelihood;
   }
   if (!this->passes(limit)) return false;
   summarize();
@@ -203,19 +202,9 @@ void HistoriesOfModes<Kind>::propose() {
         if (candidates_.back().history.log_weight > candidates_[best].history.log_weight) best = candidates_.size() - 1;
       }
     }
-    if (best == candidates_.size()) candidates_.push_back({{j, last_of(j), log_zero}, 0, false});
+    if (best == candidates_.size()) candidates_.push_back({{j, best_of(before.all(), j), log_zero}, 0, false});
     candidates_[best].best_of_mode = true;
   }
-}
-
-/// The best of the histories that end in mode j.
-template <ScalableUncertainty Kind>
-std::size_t HistoriesOfModes<Kind>::last_of(std::size_t j) const {
-  const HistorySet& set = this->state().histories;
-  std::size_t best = set.size();
-  for (std::size_t h = 0; h < set.size(); ++h)
-    if (set[h].mode == j && (best == set.size() || set[h].log_weight > set[best].log_weight)) best = h;
-  return best;
 }
 
 /// The best of each mode and then the greatest, as many as there is room for, of equals the first proposed; their
@@ -228,8 +217,8 @@ void HistoriesOfModes<Kind>::keep() {
     return !each.best_of_mode && each.history.log_weight < greatest + rules_.least_log_weight;
   };
   candidates_.erase(std::remove_if(candidates_.begin(), candidates_.end(), dropped), candidates_.end());
-  const std::size_t kept = std::min(candidates_.size(), rules_.histories);
-  const auto last = candidates_.begin() + static_cast<std::ptrdiff_t>(kept);
+  const auto last =
+      candidates_.begin() + std::min(std::ssize(candidates_), static_cast<std::ptrdiff_t>(rules_.histories));
   std::partial_sort(candidates_.begin(), last, candidates_.end(), [](const Candidate& a, const Candidate& b) {
     if (a.best_of_mode != b.best_of_mode) return a.best_of_mode;
     const History &x = a.history, &y = b.history;
@@ -290,14 +279,12 @@ void HistoriesOfModes<Kind>::collapse_modes(const HistorySet& set, const History
 template <ScalableUncertainty Kind>
 void HistoriesOfModes<Kind>::show_innovations() {
   const HistorySet& set = next().histories;
-  for (std::size_t j = 0; j < modes(); ++j) {
-    double greatest = log_zero;
-    for (std::size_t h = set.size(); h-- > 0;)
-      if (set[h].mode == j && log_prior_[h] >= greatest) {
-        greatest = log_prior_[h];
-        this->innovations_[j] = innovation_of_[h];
-      }
-  }
+  std::fill(log_of_mode_.begin(), log_of_mode_.end(), log_zero);
+  for (std::size_t h = set.size(); h-- > 0;)
+    if (const std::size_t j = set[h].mode; log_prior_[h] >= log_of_mode_[j]) {
+      log_of_mode_[j] = log_prior_[h];
+      this->innovations_[j] = innovation_of_[h];
+    }
 }
 
 template class HistoriesOfModes<Random>;

@@ -31,7 +31,7 @@ Correspondence::Correspondence(const std::vector<std::string>& receiver, const s
 void Mixture::mean_of(const Part& part, double* mean) const {
   const double lacking = augmentation == StateAugmentation::unbiased ? 1.0 : 0.0;
   for (int i = 0; i < size(); ++i) {
-    const int at = part.map ? part.map->in_source[static_cast<std::size_t>(i)] : i;
+    const int at = part.place(i);
     mean[i] = at >= 0 ? part.estimate.mean[at] : lacking * receiver.mean[i];
   }
 }
@@ -39,21 +39,15 @@ void Mixture::mean_of(const Part& part, double* mean) const {
 void Mixture::add_covariance(const Part& part, double weight, double* covariance) const {
   const int n = size(), m = part.estimate.n;
   const double* const P = part.estimate.covariance;
-  if (!part.map) {
-    for (int k = 0; k < n; ++k)
-      for (int i = k; i < n; ++i) covariance[i + k * n] += weight * P[i + k * n];
-    return;
-  }
-  const int* const in_source = part.map->in_source.data();
   for (int k = 0; k < n; ++k) {
     double* const column = covariance + k * n;
-    const int at = in_source[k];
+    const int at = part.place(k);
     if (at >= 0) {
       for (int i = k; i < n; ++i)
-        if (in_source[i] >= 0) column[i] += weight * P[in_source[i] + at * m];
+        if (const int row = part.place(i); row >= 0) column[i] += weight * P[row + at * m];
     } else if (augmentation == StateAugmentation::unbiased) {
       for (int i = k; i < n; ++i)
-        if (in_source[i] < 0) column[i] += weight * receiver.covariance[i + k * n];
+        if (part.place(i) < 0) column[i] += weight * receiver.covariance[i + k * n];
     } else if (augmentation != StateAugmentation::zero) {
       column[k] += weight * receiver.covariance[k + k * n];
     }
@@ -117,10 +111,7 @@ void collapse(const MomentMatching& rule, const Mixture& mixture, const double* 
 
 void mix(const Selection& rule, const Mixture& mixture, const double* weights, const double*, std::size_t favoured,
          ConstView own, View result) {
-  if (rule.mixed_covariance == MixedCovariance::envelope) {
-    match_envelope(mixture, weights, result);
-    return;
-  }
+  if (rule.mixed_covariance == MixedCovariance::envelope) return collapse(rule, mixture, weights, favoured, result);
   const int n = mixture.size();
   const std::size_t winner = select(
       mixture.parts.size(), [&](std::size_t l) { return std::log(weights[l]); }, favoured, rule.mixing_tie);
@@ -128,14 +119,11 @@ void mix(const Selection& rule, const Mixture& mixture, const double* weights, c
   if (rule.mixed_covariance == MixedCovariance::selected) return;
   std::copy_n(own.covariance, n * n, result.covariance);
   if (rule.mixed_covariance == MixedCovariance::own) return;
-  Scratch<32> spread(n);
-  if (rule.mixed_covariance == MixedCovariance::released)
-    mixture.mean_of(mixture.parts[0], spread);
-  else
-    std::copy_n(own.mean, n, spread.data());
-  for (int i = 0; i < n; ++i) spread[i] = result.mean[i] - spread[i];
+  Scratch<32> first(n);
+  mixture.mean_of(mixture.parts[0], first);
+  const double* const from = rule.mixed_covariance == MixedCovariance::released ? first.data() : own.mean;
   for (int k = 0; k < n; ++k)
-    for (int i = 0; i < n; ++i) result.covariance[i + k * n] += spread[i] * spread[k];
+    for (int i = 0; i < n; ++i) result.covariance[i + k * n] += (result.mean[i] - from[i]) * (result.mean[k] - from[k]);
 }
 
 void mix(const MomentMatching& rule, const Mixture& mixture, const double* weights, const double* transposed,

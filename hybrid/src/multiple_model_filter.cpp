@@ -1,5 +1,7 @@
 #include "multiple_model_filter.hpp"
 
+#include <numeric>
+
 #include <sigmax/core/compose.hpp>
 #include <sigmax/hybrid/sound.hpp>
 
@@ -44,10 +46,7 @@ void MultipleModelFilter<Kind>::restart(const Estimates& starts) {
 
 template <ScalableUncertainty Kind>
 void MultipleModelFilter<Kind>::restart(ConstView start) {
-  if (!check::finite(start)) throw std::invalid_argument("the start is not finite");
-  components_.share(start, states_[current_].estimates);
-  forget_mode();
-  begin();
+  restart(components_.shares(start));
 }
 
 template <ScalableUncertainty Kind>
@@ -86,9 +85,10 @@ void MultipleModelFilter<Kind>::output_receiver(const State& state, View result)
   components_.carry(lenders(state.estimates), carriers, result);
 }
 
+/// act(the estimates of a state as a mixture in `components()`, its weights, its winner).
 template <ScalableUncertainty Kind>
-template <class Rule>
-void MultipleModelFilter<Kind>::write_output(const Rule& rule, const State& state, View result) const {
+template <class Act>
+auto MultipleModelFilter<Kind>::of_output(const State& state, const Act& act) const {
   const int n = component_count();
   detail::Scratch mean(n), covariance(n * n);
   const View receiver{mean, covariance, n};
@@ -96,30 +96,25 @@ void MultipleModelFilter<Kind>::write_output(const Rule& rule, const State& stat
   detail::Parts parts(static_cast<int>(modes()));
   detail::OfModes weights(static_cast<int>(modes()));
   for (std::size_t j = 0; j < modes(); ++j) weights[j] = state.belief[j];
-  detail::collapse(rule, mixture(receiver, components_.of_all(), state.estimates, parts), weights,
-                   state.most_likely_mode, result);
+  return act(mixture(receiver, components_.of_all(), state.estimates, parts), weights.data(), state.most_likely_mode);
 }
 
 template <ScalableUncertainty Kind>
 void MultipleModelFilter<Kind>::output(const State& state, View result) const {
-  write_output(interaction_.collapse, state, result);
+  of_output(state, [&](const auto&... mixture) { detail::collapse(interaction_.collapse, mixture..., result); });
 }
 template <ScalableUncertainty Kind>
 void MultipleModelFilter<Kind>::most_likely_output(const State& state, View result) const {
-  write_output(Selection{}, state, result);
+  of_output(state, [&](const auto&... mixture) { detail::collapse(Selection{}, mixture..., result); });
 }
 
 template <ScalableUncertainty Kind>
 double MultipleModelFilter<Kind>::beta() const requires SelectiveAlgebra<AlgebraOf<Kind>> {
   const int n = component_count();
-  detail::Scratch mean(n), covariance(n * n), of_envelope(n), covariance_of_envelope(n * n);
-  const View receiver{mean, covariance, n};
-  output_receiver(state(), receiver);
-  detail::Parts parts(static_cast<int>(modes()));
-  detail::OfModes weights(static_cast<int>(modes()));
-  for (std::size_t j = 0; j < modes(); ++j) weights[j] = belief()[j];
-  return detail::match_envelope(mixture(receiver, components_.of_all(), estimates(), parts), weights,
-                                {of_envelope, covariance_of_envelope, n});
+  detail::Scratch mean(n), covariance(n * n);
+  return of_output(state(), [&](const auto& mixture, const double* weights, std::size_t) {
+    return detail::match_envelope(mixture, weights, {mean, covariance, n});
+  });
 }
 
 template <ScalableUncertainty Kind>
@@ -257,9 +252,8 @@ RecordedStep<Kind> MultipleModelFilter<Kind>::recorded(double dt, const Seen* se
       for (int i = 0; i < m; ++i) R[i + i * m] += 1e-24;
       detail::cholesky_factor(R, m, L);
     }
-    detail::Scratch<32> moved(n);
-    for (int i = 0; i < n; ++i) moved[i] = after.mean[i] - before.mean[i];
-    detail::multiply(H, m, detail::columns_of(moved, n), residual, m, m, n, 1, detail::Into::minus);
+    for (int i = 0; i < m; ++i)
+      for (int k = 0; k < n; ++k) residual[i] -= H[i + k * m] * (after.mean[k] - before.mean[k]);
     for (int k = 0; k < n; ++k) detail::lower_solve(L, m, H + k * m);
     detail::lower_solve(L, m, residual);
     result.seen.emplace_back(n).add(H, residual, m);
@@ -293,15 +287,12 @@ template <ScalableUncertainty Kind>
 double MultipleModelFilter<Kind>::normalize(const AnyInnovation& innovation, double* numbers) {
   double L[max_measurement_size * max_measurement_size];
   const int m = innovation.size;
+  std::fill_n(numbers, m, std::numeric_limits<double>::infinity());
   if (detail::cholesky_factor(innovation.covariance_numbers.data(), m, L)) {
     std::copy_n(innovation.residual_numbers.begin(), m, numbers);
     detail::lower_solve(L, m, numbers);
-  } else {
-    std::fill_n(numbers, m, std::numeric_limits<double>::infinity());
   }
-  double sum = 0.0;
-  for (int i = 0; i < m; ++i) sum += numbers[i] * numbers[i];
-  return sum;
+  return std::inner_product(numbers, numbers + m, numbers, 0.0);
 }
 
 template <ScalableUncertainty Kind>

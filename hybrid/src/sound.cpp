@@ -1,6 +1,5 @@
 #include <sigmax/hybrid/sound.hpp>
 
-#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -35,25 +34,18 @@ void prior(const EntryPrior& prior) {
 }
 
 void sound(const AnyModel& model, detail::ConstView estimate) {
-  double sum = 0.0, least = 0.0, squares = 0.0;
-  for (int i = 0; i < estimate.n; ++i) {
-    const double variance = estimate.covariance[i + i * estimate.n];
-    sum += std::abs(variance);
-    least = std::min(least, variance);
-    squares += 0.0 * estimate.mean[i];  // not a number if the mean is not finite
-  }
-  if (!std::isfinite(sum + squares))
+  const EstimateAt<const double> at(estimate);
+  const double sum = at.covariance.diagonal().cwiseAbs().sum();
+  if (!std::isfinite(sum) || !at.mean.allFinite())
     throw std::domain_error("the estimate of model '" + std::string(model.name()) + "' is not finite");
-  if (least < -1e-12 * sum)
+  if (at.covariance.diagonal().minCoeff() < -1e-12 * sum)
     throw std::domain_error("the covariance of model '" + std::string(model.name()) +
                             "' is not positive semi-definite");
 }
 
 bool finite(detail::ConstView estimate, double greatest) {
-  const auto are_finite = [greatest](const double* numbers, int count) {
-    return std::all_of(numbers, numbers + count, [greatest](double number) { return std::abs(number) <= greatest; });
-  };
-  return are_finite(estimate.mean, estimate.n) && are_finite(estimate.covariance, estimate.n * estimate.n);
+  const EstimateAt<const double> at(estimate);
+  return (at.mean.array().abs() <= greatest).all() && (at.covariance.array().abs() <= greatest).all();
 }
 
 }  // namespace sigmax::check

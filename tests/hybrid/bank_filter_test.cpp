@@ -40,7 +40,7 @@ void is_one_filter(Scheme scheme) {
                          : AnyDetection::missed(time));
       ASSERT_PRED_FORMAT3(same_state, shown(tuple), vector, 1e-9);
       ASSERT_CLOSE(tuple.estimate().mean, vector.estimate.mean, 1e-9);
-      ASSERT_CLOSE(tuple.template estimate<2>().covariance, vector.estimates[2].covariance, 1e-9);
+      ASSERT_CLOSE(tuple.estimates()[2].covariance, vector.estimates[2].covariance, 1e-9);
       const TargetPoint point = target.output();
       ASSERT_CLOSE(point.mean, entries(vector.estimate.mean), 1e-9);
       ASSERT_CLOSE(point.covariance, entries(vector.estimate.covariance), 1e-9);

@@ -23,13 +23,13 @@ TEST(Components, ThoseOfTheLargestModelLead) {
 TEST(Components, EveryModelTakesItsShareOfAStart) {
   const Gaussian<4> start{Vector<4>(1, 2, 3, 4),
                           SquareMatrix<4>{{10, 1, 2, 3}, {1, 20, 4, 5}, {2, 4, 30, 6}, {3, 5, 6, 40}}};
-  const Estimates shares = detail::shares_of(models, detail::view(start));
+  const Estimates shares = detail::Components(models).shares(detail::view(start));
   EXPECT_EQ(shares[0].mean, (Vector<2>(1, 2)));
   EXPECT_EQ(shares[1].covariance, (SquareMatrix<3>{{10, 1, 2}, {1, 20, 4}, {2, 4, 30}}));
   EXPECT_EQ(shares[2].mean, (Vector<3>(4, 1, 2)));
   EXPECT_EQ(shares[2].covariance, (SquareMatrix<3>{{40, 3, 5}, {3, 10, 1}, {5, 1, 20}}));
   const Gaussian<2> few{Vector<2>::Zero(), SquareMatrix<2>::Identity()};
-  EXPECT_INVALID(("2", "4"), detail::shares_of(models, detail::view(few)));
+  EXPECT_INVALID(("2", "4"), detail::Components(models).shares(detail::view(few)));
 }
 
 TEST(Components, EachIsCarriedByTheModelThatWasChosenForIt) {

@@ -10,7 +10,7 @@ TEST(Detection, IsAMeasurementOrTheNewsThatThereWasNone) {
   EXPECT_EQ(nothing.time, 3.0);
   EXPECT_EQ(nothing.tag, 7U);
   EXPECT_TRUE(something.seen());
-  EXPECT_EQ(something.size(), 2);
+  EXPECT_EQ(something.measurement().n, 2);
   EXPECT_EQ(something.measurement().mean[1], 0.5);
   EXPECT_EQ(something.measurement().covariance[3], 1e-4);
   EXPECT_EQ(something.tag, 8U);
@@ -33,7 +33,7 @@ TEST(Detection, TellsAPositionAlongAsManyAxesAsItWasMeasured) {
     const Gaussian<Eigen::Dynamic, 3> position{Eigen::VectorXd::LinSpaced(axes, 1.0, 3.0),
                                                Eigen::MatrixXd::Identity(axes, axes)};
     const Detection detection(1.0, position);
-    EXPECT_EQ(detection.size(), axes);
+    EXPECT_EQ(detection.measurement().n, axes);
     EXPECT_EQ(detection.position<Eigen::Dynamic>()->mean, position.mean);
     EXPECT_EQ(detection.position<2>().has_value(), axes == 2);
   }

@@ -18,9 +18,10 @@ TEST(HistorySet, StartsWithAHistoryForEachModeAndHasRoomForMore) {
   set[3] = {0, 1, -1.0};
   set.view(2).mean[1] = 7.0;
   set.view(2).covariance[3] = 8.0;
-  EXPECT_EQ(set.estimate(2).mean, (Vector<2>(0.0, 7.0)));
-  EXPECT_EQ(set.estimate(2).covariance(1, 1), 8.0);
-  EXPECT_EQ(set.estimate(3).size(), 1) << "an estimate is of the size of its last mode's model";
+  EXPECT_EQ(EstimateAt<const double>(std::as_const(set).view(2)).mean, (Vector<2>(0.0, 7.0)));
+  EXPECT_EQ(EstimateAt<const double>(std::as_const(set).view(2)).covariance(1, 1), 8.0);
+  EXPECT_EQ(EstimateAt<const double>(std::as_const(set).view(3)).size(), 1)
+      << "an estimate is of the size of its last mode's model";
 }
 
 TEST(HistorySet, KnowsTheFirstOfItsBestAndWhereEachCameFrom) {

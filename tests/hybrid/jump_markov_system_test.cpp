@@ -5,6 +5,7 @@ namespace jump_markov_system_test {
 const FuzzyVariable mode_now{"mode", {"straight", "turn"}};
 const Relation persistent{mode_now, mode_now, {{1.0, 0.5}, {0.5, 1.0}}};
 
+using System = JumpMarkovSystem<Fuzzy>;
 using Models = std::tuple<IndependentAxes<3, DiscreteWhiteNoise<2>>>;
 
 template <class Kind>
@@ -19,22 +20,21 @@ static_assert(CanBeAMode<Random> && CanBeAMode<Fuzzy>);
 static_assert(!CanBeAMode<Ordinal>, "weights of modes are divided: refused by the constraint, not inside");
 
 TEST(JumpMarkovSystem, HoldsModelsAndTheTransitionOfTheirMode) {
-  const JumpMarkovSystem system{std::tuple{dwna<3>(1.0), dwpa<3>(2.0)}, persistent};
+  const System system{{dwna<3>(1.0), dwpa<3>(2.0)}, persistent};
   EXPECT_EQ(system.mode_variable().name(), "mode");
   EXPECT_EQ(system.transition()(0, 1), 0.5);
   EXPECT_EQ(system.models()[1].name(), "dwpa");
 }
 
 TEST(JumpMarkovSystem, NeedsOneOutcomeForEachModel) {
-  EXPECT_INVALID(("'mode'", "2 outcomes", "1 models"), JumpMarkovSystem(std::tuple{dwna<3>(1.0)}, persistent));
-  EXPECT_INVALID(("'mode'", "2 outcomes", "0 models"), JumpMarkovSystem(std::vector<AnyModel>{}, persistent));
+  EXPECT_INVALID(("'mode'", "2 outcomes", "1 models"), System({dwna<3>(1.0)}, persistent));
+  EXPECT_INVALID(("'mode'", "2 outcomes", "0 models"), System({}, persistent));
 }
 
 TEST(JumpMarkovSystem, NeedsATransitionFromTheModeToItself) {
   const FuzzyVariable weather{"weather", {"fair", "foul"}};
-  EXPECT_REFUSED(
-      std::invalid_argument, ("JumpMarkovSystem", "weather", "mode"),
-      JumpMarkovSystem(std::tuple{dwna<3>(1.0), dwpa<3>(1.0)}, Relation{mode_now, weather, {{1.0, 0.5}, {0.5, 1.0}}}));
+  EXPECT_REFUSED(std::invalid_argument, ("JumpMarkovSystem", "weather", "mode"),
+                 System({dwna<3>(1.0), dwpa<3>(1.0)}, Relation{mode_now, weather, {{1.0, 0.5}, {0.5, 1.0}}}));
 }
 
 /// Gives the same row whatever it was asked before, and counts how often it is.

@@ -161,7 +161,7 @@ TEST(Target, OfATupleStartsFromAPositionAlongItsAxes) {
   EXPECT_EQ(target.take({0.5, {Vector<1>(7.0), SquareMatrix<1>(1.0)}, LinearSensor<1, 1>(SquareMatrix<1>(1.0))}),
             Verdict::waiting);
   EXPECT_EQ(target.take(1.0, at(5.0, 6.0)), Verdict::started);
-  EXPECT_EQ(target.filter().estimate<0>().mean, (Vector<4>(5.0, 6.0, 0.0, 0.0)));
+  EXPECT_EQ(target.filter().estimates()[0].mean, (Vector<4>(5.0, 6.0, 0.0, 0.0)));
 }
 
 }  // namespace target_test

@@ -46,8 +46,8 @@ class BankFilter : public Filter {
   template <int N, int MaxN, class... Rules>
   BankFilter(const Models& models, ModeTransition<kind> transition, const Gaussian<N, MaxN>& start,
              const Rules&... rules)
-      : BankFilter(models, std::move(transition), detail::shares_of(detail::bank_of(models), detail::view(start)),
-                   rules...) {}
+      : BankFilter(models, std::move(transition),
+                   detail::Components(detail::bank_of(models)).shares(detail::view(start)), rules...) {}
 
   /// One cycle, `dt` ≥ 0 seconds after the last, with the measurement z, its covariance R, and the sensor that measured
   /// it: another one each time, if need be. Where its `gate_distance()` is beyond the gate, it counts as missed, and
@@ -123,13 +123,6 @@ class BankFilter : public Filter {
   Estimate most_likely_estimate() const { return most_likely_estimate(this->state()); }
   Estimate most_likely_estimate(const HybridEstimate<kind>& state) const {
     return written([&](detail::View result) { Filter::most_likely_output(state, result); });
-  }
-
-  /// The estimate of one model of a tuple, in its own type.
-  template <std::size_t Mode>
-  auto estimate() const {
-    using Model = std::tuple_element_t<Mode, Models>;
-    return static_cast<EstimateOf<Model>>(this->estimates()[Mode]);
   }
 
   /// The innovation of the predicted measurement in its own standard deviations, L⁻¹ν with S = LLᵀ; `nis()` is the

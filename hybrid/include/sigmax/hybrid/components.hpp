@@ -31,7 +31,7 @@ class Components {
 
   /// What each model takes of one start, given in the order of `names()`. Throws std::invalid_argument for another
   /// size.
-  void share(ConstView start, Estimates& shares) const;
+  Estimates shares(ConstView start) const;
 
  private:
   std::vector<std::string> names_;
@@ -48,10 +48,6 @@ Estimates anywhere(const std::vector<AnyModel>& models);
 
 /// Zeros of the size of each estimate i, as many as there are estimates, at i · modes + j.
 Estimates pairs_of(const Estimates& estimates);
-
-/// What each model takes of one start, given in the order of all components. Throws std::invalid_argument for another
-/// size.
-Estimates shares_of(const std::vector<AnyModel>& models, ConstView start);
 
 /// What StateAugmentation::prior knows of every component of each model, with this scale.
 void write_entries(const std::vector<AnyModel>& models, const EntryPrior& prior, double scale, Estimates& entries);

@@ -43,8 +43,7 @@ class Detection {
   }
 
   bool seen() const { return sensor_.has_value(); }
-  /// How many quantities were measured, they and their covariance, and by what; of value only if there were any.
-  int size() const { return size_; }
+  /// What was measured, with its covariance, and by what; of value only if there was a measurement.
   detail::ConstView measurement() const { return {z_.data(), covariance_.data(), size_}; }
   const AnySensor& sensor() const { return *sensor_; }
 

@@ -33,8 +33,6 @@ class HistoriesOfModes : public MultipleModelFilter<Kind> {
                    const HistoryRules<Kind>& rules = {},
                    const Interaction<Kind>& interaction = {StateAugmentation::prior});
 
-  const HistoryRules<Kind>& rules() const { return rules_; }
-
   std::unique_ptr<Filter> clone() const override { return std::make_unique<HistoriesOfModes>(*this); }
 
   /// @{
@@ -72,7 +70,6 @@ class HistoriesOfModes : public MultipleModelFilter<Kind> {
   Estimates predicted() const override;
   void branch(double dt, HistorySet& predicted);
   void propose();
-  std::size_t last_of(std::size_t j) const;
   void keep();
   void normalize(HistorySet& set) const;
   void summarize();

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -16,8 +17,8 @@ struct History {
   double log_weight = log_zero;  ///< of all histories the ⊕ is one
 };
 
-/// The first of the greatest weight.
-std::size_t best_of(std::span<const History> histories);
+/// The first of the greatest weight, of all or of those that end in this mode; how many there are if none does.
+std::size_t best_of(std::span<const History> histories, std::optional<std::size_t> mode = {});
 
 /// The histories that a HistoryFilter keeps, each with the estimate of the state if it is true.
 class HistorySet {
@@ -37,7 +38,6 @@ class HistorySet {
 
   /// @{
   /// The estimate of a history, in the components of its last mode.
-  EstimateAt<const double> estimate(std::size_t h) const { return view(h); }
   detail::ConstView view(std::size_t h) const {
     const double* const at = numbers_.data() + h * stride_;
     const int n = sizes_[histories_[h].mode];

@@ -62,9 +62,8 @@ class JumpMarkovSystem {
  public:
   /// Throws std::invalid_argument unless the transition leads from a mode variable to itself and has one outcome for
   /// each model.
-  template <class Models>
-  JumpMarkovSystem(const Models& models, ModeTransition<Kind> transition)
-      : models_(detail::bank_of(models)), transition_(std::move(transition)) {
+  JumpMarkovSystem(std::vector<AnyModel> models, ModeTransition<Kind> transition)
+      : models_(std::move(models)), transition_(std::move(transition)) {
     check::same(this->transition().from(), this->transition().to(), "JumpMarkovSystem");
     if (mode_variable().size() != models_.size())
       throw std::invalid_argument("the mode variable '" + mode_variable().name() + "' has " +
@@ -84,11 +83,6 @@ class JumpMarkovSystem {
   std::vector<AnyModel> models_;
   ModeTransition<Kind> transition_;
 };
-
-template <class Models, ScalableUncertainty Kind>
-JumpMarkovSystem(Models, Relation<Kind, Kind>) -> JumpMarkovSystem<Kind>;
-template <class Models, class Transition>
-JumpMarkovSystem(Models, Transition) -> JumpMarkovSystem<typename Transition::kind>;
 
 /// The transition of a mode that never changes: with it a multiple-model filter is a static (autonomous) bank, whose
 /// models run alone and are compared by all that they predicted.

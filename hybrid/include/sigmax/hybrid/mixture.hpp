@@ -16,6 +16,8 @@ struct Mixture {
   struct Part {
     ConstView estimate;
     const Correspondence* map = nullptr;  ///< of the receiver's components in the part; null if they are the same
+    /// Where the part has component i of the receiver; −1 if it lacks it.
+    int place(int i) const { return map ? map->in_source[static_cast<std::size_t>(i)] : i; }
   };
   ConstView receiver;  ///< lends what a part lacks, by the rule of augmenting
   std::span<const Part> parts;

@@ -227,8 +227,8 @@ class MultipleModelFilter {
   std::size_t mode_before_ = 0;  ///< the most likely one before the last step
 
  private:
-  template <class Rule>
-  void write_output(const Rule& rule, const State& state, detail::View result) const;
+  template <class Act>
+  auto of_output(const State& state, const Act& act) const;
   AnyInnovation predicted_innovation() const;
   void forget_mode();
   void require(double dt, const Seen* seen) const;
