@@ -11,9 +11,9 @@
 
 namespace sigmax {
 
-/// The models of a multiple-model filter as a user has them: a tuple of different types, whose sizes the compiler
-/// checks, or a vector of one type, of AnyModel if they are chosen at run time. They fill one bank, a vector of
-/// AnyModel, and all that is computed is computed over that.
+/// The user's models of a multiple-model filter: a tuple of different types, or a vector of one type. The compiler
+/// checks the sizes of a tuple; a vector of AnyModel is chosen at run time. Both fill one bank, a vector of AnyModel,
+/// on which the filter computes.
 template <class Models>
 struct Bank;
 

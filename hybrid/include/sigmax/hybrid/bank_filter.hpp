@@ -84,8 +84,8 @@ class BankFilter : public Filter {
   /// One cycle without a measurement, `step(dt)`: the models predict and the mode moves on.
   using Filter::step;
 
-  /// What the last step left for a smoother; it takes what the step took. A measurement that the gate rejected counts
-  /// as missed. Throws std::logic_error without a measurement if the step had one.
+  /// The record of the last step for a smoother, with the arguments of that step. A measurement that the gate rejected
+  /// counts as missed. Throws std::logic_error without a measurement if the step had one.
   using Filter::recorded;
   template <Sensing Sensor>
   RecordedStep<kind> recorded(double dt, const MeasurementOf<Sensor>& z, const Sensor& sensor, const Gate& = {}) const {

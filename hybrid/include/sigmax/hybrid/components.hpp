@@ -15,7 +15,7 @@ class Components {
  public:
   explicit Components(const std::vector<AnyModel>& models);
 
-  /// Those of the largest model (the first of them on a tie) lead.
+  /// Components of the largest model lead; of equally large models the first.
   const std::vector<std::string>& names() const { return names_; }
   int size() const { return static_cast<int>(names_.size()); }
 

@@ -17,12 +17,13 @@ using RowFolds = std::vector<std::vector<std::size_t>>;
 /// Which rows count.
 using RowCounts = std::function<bool(std::size_t recording, std::size_t row)>;
 
-/// The folds of recordings with so many rows, each of which is to be held out once: whole recordings where there are
-/// two for each fold or more, else each recording's time cut into as many pieces, since neighbours know each other.
+/// The folds of recordings with so many rows; each fold is held out once. With two recordings a fold or more, a fold
+/// has whole recordings. Otherwise each recording's time is cut into as many pieces, as neighbouring rows are
+/// correlated.
 RowFolds folds_of(std::span<const std::size_t> rows, std::size_t folds);
 
-/// Each row's loss by the settings that have not seen its fold: `without[f]` are those of settings fitted to all but
-/// fold f.
+/// Each row's loss by the settings that have not seen its fold. `without[f]` has the losses by settings that were
+/// fitted to all folds but f.
 RowLosses held_out(const RowFolds& folds, std::span<const RowLosses> without);
 
 /// The mean loss of the rows that count and are judged; NaN if there are none.
@@ -36,8 +37,8 @@ struct MeanDifference {
 };
 MeanDifference mean_difference(const RowLosses& a, const RowLosses& b);
 
-/// Which settings are the best, by the mean of what they lose held out, and which are the simplest that lose no more
-/// than one standard error more: those with the fewest fitted numbers. The first wins a tie.
+/// The best settings by their mean held-out loss, and the simplest settings within one standard error of it. The
+/// simplest have the fewest fitted numbers. The first wins a tie.
 struct Selected {
   std::size_t best = 0;
   std::size_t simple = 0;
@@ -50,7 +51,7 @@ Selected select_settings(std::span<const RowLosses> held_out, std::span<const st
 /// from there, and tell the slopes and the curvature over any choice of rows after that.
 class LossSurface {
  public:
-  /// `losses(offsets)` are those of the settings with these offsets to so many numbers.
+  /// `losses(offsets)` gives the losses of the settings with these offsets to so many numbers.
   LossSurface(std::size_t numbers, double step,
               const std::function<RowLosses(const std::vector<double>& offsets)>& losses);
 
@@ -58,12 +59,11 @@ class LossSurface {
     /// Where the least loss of the rows that count is, by a parabola: the offsets, within four steps.
     std::vector<double> least;
     /// The standard errors of the best numbers, H⁻¹ J H⁻¹ with the curvature H and the sum J of squared slopes of the
-    /// rows, so that the losses need not be those of a right model; infinite of numbers on which the loss does not
-    /// depend or has no least value. Slopes of rows that follow each other are added up first, so many, where losses
-    /// are those of errors that last.
+    /// rows. They hold for a wrong model, too. A number without influence, or without a least loss, has an infinite
+    /// error. With correlated errors the slopes of `together` consecutive rows are summed first.
     std::vector<double> error;
-    /// For each number where all of them are best if it is off by one, by the parabola: the columns of H⁻¹, over its
-    /// own element; empty of numbers whose error is infinite.
+    /// For each number the best values of all numbers if it is off by one, by the parabola: a column of H⁻¹ over its
+    /// diagonal element. Empty for a number whose error is infinite.
     std::vector<std::vector<double>> ridges;
   };
   Shape shape(const RowCounts& counts = {}, std::size_t together = 1) const;

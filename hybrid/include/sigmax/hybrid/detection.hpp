@@ -43,12 +43,12 @@ class Detection {
   }
 
   bool seen() const { return sensor_.has_value(); }
-  /// What was measured, with its covariance, and by what; of value only if there was a measurement.
+  /// The measurement with its covariance, and its sensor. Valid only if there was a measurement.
   detail::ConstView measurement() const { return {z_.data(), covariance_.data(), size_}; }
   const AnySensor& sensor() const { return *sensor_; }
 
-  /// The position that the measurement tells by itself, if the sensor has one to tell along so many axes, or along any
-  /// if that is Eigen::Dynamic: what a start is made of.
+  /// The position that the measurement alone determines, for a start; nothing if the sensor has none along so many
+  /// axes. Eigen::Dynamic is any number of axes.
   template <int Axes>
   std::optional<Gaussian<Axes, Axes == Eigen::Dynamic ? 3 : Axes>> position() const {
     Gaussian<3> room;

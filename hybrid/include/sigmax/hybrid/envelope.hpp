@@ -25,7 +25,7 @@ class Envelope {
   /// No parts; those to come have `n` ≤ max_size components. Throws std::invalid_argument above.
   void clear(int n);
 
-  /// A part of weight w ≥ 0 with a mean and a covariance, of which the lower triangle is read. Throws std::domain_error
+  /// A part of weight w ≥ 0 with a mean and a covariance. The lower triangle is read. Throws std::domain_error
   /// if the covariance of the components with a variance is not positive definite.
   void add(double weight, detail::ConstView part);
 

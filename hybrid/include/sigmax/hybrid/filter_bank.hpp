@@ -184,8 +184,8 @@ class FilterBank : public TrackBank<Kind, Number> {
   /// An empty scan with room for the tracks that there are.
   Scan scan() const { return Tracks::scan(); }
 
-  /// One step of all tracks, and one for each scan, `dt` seconds apart; blocks of tracks are shared among the threads,
-  /// and the result does not depend on how many there are. Only starting threads allocates.
+  /// Steps all tracks once, or once for each scan, `dt` seconds apart. Threads share blocks of tracks; the result does
+  /// not depend on the number of threads. Only starting threads allocates.
   /// Throws std::invalid_argument if dt or the size of a scan is wrong, and what the filter's step throws, with the
   /// number of the track; it keeps its state, and later tracks of the same thread may not have been stepped.
   void step(double dt, const Scan& scan) { run(dt, std::span<const Scan>(&scan, 1)); }

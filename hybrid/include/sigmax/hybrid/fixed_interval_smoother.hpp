@@ -8,8 +8,8 @@
 
 namespace sigmax {
 
-/// Fixed-interval smoothing for the multiple-model filters, with a random or a fuzzy mode: what was known at k becomes
-/// what is known of k at the end.
+/// Fixed-interval smoothing for the multiple-model filters, with a random or a fuzzy mode: the estimate of step k
+/// given all measurements.
 ///
 /// What came to be known from k + 1 on in mode j is a likelihood (FutureEvidence). For each pair of a mode i at k and j
 /// at k + 1 the model of j carries it back to k, where it meets the estimate of i. With the evidence Λ_ij of that

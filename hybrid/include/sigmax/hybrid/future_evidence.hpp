@@ -33,8 +33,8 @@ class FutureEvidence {
   /// position and its derivatives.
   void transform(const double* A, int axes);
 
-  /// The evidence of a state x of m components of which this state was made, u = offset + B x + A η with η ~ N(0, 1) of
-  /// q components; returns the logarithm of the factor that η leaves.
+  /// The evidence on an earlier state x of m components, where u = offset + B x + A η and η ~ N(0, 1) has q components.
+  /// Returns the logarithm of the factor that η leaves.
   double carry_back(const double* offset, const double* B, int m, const double* A, int q, FutureEvidence& result) const;
 
   /// The estimate m + L ξ, ξ ~ N(0, 1), meets the evidence about m; returns the logarithm of how well.

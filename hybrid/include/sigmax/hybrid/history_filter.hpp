@@ -93,8 +93,8 @@ class HistoriesOfModes : public MultipleModelFilter<Kind> {
 extern template class HistoriesOfModes<Random>;
 extern template class HistoriesOfModes<Fuzzy>;
 
-/// The filter over mode histories: of a fuzzy mode the HIMM that takes and by their word, of a random mode
-/// the multiple-model filter that prunes and never merges (Andersson 1985; Gustafsson 2000, chapter 10).
+/// The filter over mode histories. With a fuzzy mode it is the HIMM by and as printed. With a random mode
+/// it is the multiple-model filter that prunes and never merges (Andersson 1985; Gustafsson 2000, chapter 10).
 ///
 ///     HistoryFilter filter{std::tuple{dwna<3>(3.0), dwpa<3>(1.0)}, transition, start};
 ///     for (const auto& [dt, z] : measurements) filter.step(dt, z);

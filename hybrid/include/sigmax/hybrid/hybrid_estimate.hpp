@@ -10,8 +10,8 @@
 
 namespace sigmax {
 
-/// What is known of a jump Markov system at one time: for each mode the estimate of the state if it is that mode, and
-/// what is believed of the mode.
+/// The estimate of a jump Markov system at one time: for each mode the estimate of the state given that mode, and the
+/// belief in the modes.
 template <ScalableUncertainty Kind>
 struct HybridEstimate {
   Estimates estimates;

@@ -44,7 +44,7 @@ void collapse(const MomentMatching& rule, const Mixture& mixture, const double* 
 void match_moments(const Mixture& mixture, const double* weights, const double* covariance_weights, View result,
                    OutputSpread spread = OutputSpread::included);
 
-/// Those of the envelope max weight N, (A-1); returns its integral β, (A-11).
+/// Mean and covariance of the envelope max weight N, (A-1); returns its integral β, (A-11).
 double match_envelope(const Mixture& mixture, const double* weights, View result);
 
 /// @{

@@ -52,8 +52,8 @@ class TimedTransition {
  public:
   using kind = Kind;
 
-  /// Throws std::invalid_argument unless there is a row and a column of rates for each mode, all finite, none negative
-  /// off the diagonal, and every row sums to zero to within 1e-9 of its diagonal.
+  /// Throws std::invalid_argument unless there is a row and a column of finite rates for each mode. No rate off the
+  /// diagonal is negative, and every row sums to zero to within 1e-9 of its diagonal.
   TimedTransition(Variable<Kind> mode, const Rates& rates) : mode_(std::move(mode)), jump_(mode_.size(), mode_.size()) {
     const std::size_t n = mode_.size();
     check::size(mode_, {}, rates.size());

@@ -70,9 +70,9 @@ class MultipleModelFilter {
   /// the models or is not finite.
   virtual void restore(const State& state);
 
-  /// Starts again as if new, and nothing is known of the mode: every model from its own estimate, or from the
-  /// components that it has of one estimate, given in the order of `components()`. Throws std::invalid_argument if a
-  /// start does not fit the models or is not finite.
+  /// Reinitialises the filter; nothing is known of the mode. Every model starts from its own estimate, or from its
+  /// components of one estimate in the order of `components()`. Throws std::invalid_argument if a start does not fit
+  /// the models or is not finite.
   void restart(const Estimates& starts);
   void restart(detail::ConstView start);
 
@@ -84,27 +84,27 @@ class MultipleModelFilter {
   /// One cycle, with a measurement or without; see BankFilter.
   void step(double dt, const Seen* seen = nullptr, const Gate& gate = {});
 
-  /// What the last step left for a smoother; it takes what the step took. A measurement that is not linear is
+  /// The record of the last step for a smoother, with the arguments of that step. A measurement that is not linear is
   /// linearised where its mode predicted it. Throws std::logic_error without a measurement if the step had one.
   RecordedStep<Kind> recorded(double dt, const Seen* seen = nullptr) const;
 
   virtual std::unique_ptr<MultipleModelFilter> clone() const = 0;
 
-  /// The names of all components, those of the largest model first.
+  /// The names of all components; components of the largest model lead.
   const std::vector<std::string>& components() const { return components_.names(); }
   int component_count() const { return components_.size(); }
 
-  /// Step 4: the selected model's estimate if the mode is fuzzy, (65), (66); the moment-matched one if it is random,
-  /// (67), (68) with the spread of the means that the print omits, if nothing else was chosen. In `components()`,
-  /// augmented by the rule in force. Of a state: the filter's own, or another, say a smoothed one.
+  /// Step 4: the selected model's estimate if the mode is fuzzy, (65), (66). If it is random, the moment-matched one,
+  /// (67), (68), by default with the spread of the means that the print omits. In the order of `components()`,
+  /// augmented by the rule in force. The state is the filter's own, or another, as a smoothed one.
   virtual void output(const State& state, detail::View result) const;
   void output(detail::View result) const { output(state(), result); }
 
   /// The estimate of the most likely mode alone, whatever the mode's kind.
   void most_likely_output(const State& state, detail::View result) const;
 
-  /// β of, ∫ max_j π_j N(x; xʲ, Σʲ) dx, in [1, Σ π]: near 1 the modes' estimates agree or all but one are hardly
-  /// possible, near Σ π they exclude each other.
+  /// β of, ∫ max_j π_j N(x; xʲ, Σʲ) dx, in [1, Σ π]. Near 1 the modes' estimates agree, or only one mode is
+  /// possible. Near Σ π the estimates exclude each other.
   double beta() const requires SelectiveAlgebra<AlgebraOf<Kind>>;
 
   /// Whether the last step had a measurement, and it passed the gate.
@@ -129,10 +129,10 @@ class MultipleModelFilter {
   /// same weights. Its exponential integrates over z to one, or to less.
   double log_score() const;
 
-  /// How far the last measurement lay from all that was thought possible, −2 log ⊕ⱼ w_j ⊗ exp(−d_j²/2) with the weights
-  /// before it and each model's squared distance: what a gate compares with a quantile of χ². With one model it is the
-  /// NIS; with several it is never more than d_j² − 2 log w_j, so that a measurement that any possible mode expects
-  /// passes. Of value after a step with a measurement, accepted or not.
+  /// The distance of the last measurement that a gate compares with a quantile of χ²: −2 log ⊕ⱼ w_j ⊗ exp(−d_j²/2),
+  /// with the weights before it and each model's squared distance. With one model it is the NIS. With several it is at
+  /// most d_j² − 2 log w_j for each j, so a measurement that one possible mode expects passes. Valid after a step with
+  /// a measurement, accepted or not.
   double gate_distance() const;
 
   /// @{
@@ -140,8 +140,8 @@ class MultipleModelFilter {
   /// The innovation of the predicted measurement in its own standard deviations, L⁻¹ν with S = LLᵀ; its size.
   int normalized_innovation(double* numbers) const;
   const detail::Correspondence* correspondences(std::size_t j) const { return components_.of_model(j); }
-  /// The estimates that an augmentation borrows from: those of the receiving models, or what StateAugmentation::prior
-  /// knows before.
+  /// The estimates that an augmentation borrows from: estimates of the receiving models, or the prior of
+  /// StateAugmentation::prior.
   const Estimates& lenders(const Estimates& estimates) const {
     return interaction_.augmentation == StateAugmentation::prior ? entries_ : estimates;
   }
@@ -194,8 +194,8 @@ class MultipleModelFilter {
   /// that of the predictors.
   bool passes(double limit, std::optional<double> distance = std::nullopt);
 
-  /// What predicted the last measurement, with the logarithms of the weights before it, and which of them is the most
-  /// likely: the modes, or of a filter that keeps more all that it keeps.
+  /// The predictions of the last measurement, the logarithms of their weights before it, and the most likely one. There
+  /// is one for each mode, or for each history.
   struct Predictors {
     std::span<const AnyInnovation> innovations;
     std::span<const double> log_weights;

@@ -51,9 +51,9 @@ class SecondOrderFilter : public MultipleModelFilter<Kind> {
 extern template class SecondOrderFilter<Random>;
 extern template class SecondOrderFilter<Fuzzy>;
 
-/// The second-order multiple-model filter: with a random mode GPB2 (Tugnait 1982; Bar-Shalom, Li, Kirubarajan 2001,
-/// 11.6.5), with a fuzzy mode the Viterbi filter (Averbuch, Itzikowitz, Kapon 1991), which keeps the best predecessor
-/// of each mode. The mode's kind is the only difference, and HIMM : Viterbi = IMM : GPB2.
+/// The second-order multiple-model filter. With a random mode it is GPB2 (Tugnait 1982; Bar-Shalom, Li, Kirubarajan
+/// 2001, 11.6.5). With a fuzzy mode it is the Viterbi filter (Averbuch, Itzikowitz, Kapon 1991), which keeps the best
+/// predecessor of each mode. The mode's kind is the only difference, and HIMM : Viterbi = IMM : GPB2.
 ///
 ///     SecondOrderMultipleModel filter{std::tuple{dwna<3>(3.0), dwpa<3>(3.0)}, transition, start};
 ///

@@ -80,8 +80,8 @@ class Target {
   double time() const { return life_.now().time; }
   double accepted_time() const { return life_.now().accepted_time; }
 
-  /// Tells all that is known in other coordinates, as the filter's `transform`; detections that wait or are in the
-  /// buffer stay as they were measured, so a target with either is left alone: returns whether it was told.
+  /// Changes the coordinates, as the filter's `transform`. Returns false, and changes nothing, if detections wait or
+  /// are in the buffer, as these stay as they were measured.
   bool transform(const SquareMatrix<Eigen::Dynamic, 3>& A, const Vector<Eigen::Dynamic, 3>& b) {
     return life_.transform(filter_, A.data(), b.data(), static_cast<int>(b.size()));
   }
