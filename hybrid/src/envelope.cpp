@@ -44,8 +44,7 @@ Eigen::Map<const Points> normal_points(Eigen::Index n) {
         lattice(i, points / 2 + k) = -x;
       }
     }
-    const detail::SmallMatrix spread = lattice.lazyProduct(lattice.transpose()) / points;
-    detail::SmallMatrix root(n, n);
+    detail::SmallMatrix root(n, n), spread = lattice.lazyProduct(lattice.transpose()) / points;
     detail::cholesky_factor(spread.data(), static_cast<int>(n), root.data());
     solve_lower(root, lattice);
     all[at] = std::move(lattice);

@@ -156,11 +156,10 @@ double FutureEvidence::meet(const double* L, detail::View estimate) const {
   work.bottomRows(n).setIdentity();
   const Triangle triangle(numbers, all, n + 1, n);
   const Square half = triangle.solve_transposed(root);  // (L T⁻¹)ᵀ
-  const auto told = work.col(n);
-  Eigen::Map<Eigen::VectorXd>(estimate.mean, n).noalias() += half.transpose().lazyProduct(told.head(n));
+  Eigen::Map<Eigen::VectorXd>(estimate.mean, n).noalias() += half.transpose().lazyProduct(work.col(n).head(n));
   Map(estimate.covariance, n, n).noalias() = half.transpose().lazyProduct(half);
   detail::mirror_lower(estimate.covariance, n);
-  return -triangle.log_determinant() - 0.5 * told.tail(rows_).squaredNorm();
+  return -triangle.log_determinant() - 0.5 * work.col(n).tail(rows_).squaredNorm();
 }
 
 namespace detail {

@@ -25,10 +25,9 @@ bool SecondOrderFilter<Kind>::measure(double dt, const Seen& seen, double limit)
     for (std::size_t l = 0; l < modes(); ++l) {
       log_fit_[pair(l, j)] = log_zero;
       if (!lives(l, j)) continue;
-      AnyInnovation& innovation = pair_innovations_[l];
-      this->update_model(j, predicted_.view(pair(l, j)), seen, pairs_.view(pair(l, j)), innovation);
-      log_fit_[pair(l, j)] = joint_(j, l) - 0.5 * innovation.squared_distance;
-      joint_(j, l) += innovation.log_likelihood;
+      this->update_model(j, predicted_.view(pair(l, j)), seen, pairs_.view(pair(l, j)), pair_innovations_[l]);
+      log_fit_[pair(l, j)] = joint_(j, l) - 0.5 * pair_innovations_[l].squared_distance;
+      joint_(j, l) += pair_innovations_[l].log_likelihood;
     }
     summarize(j);
   }
