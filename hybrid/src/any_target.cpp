@@ -72,9 +72,8 @@ class ChosenStart {
       return detail::TimedView{time, detail::view(position)};
     };
     const bool released = choice_.start == StartRule::released;
-    const int all = 3 * axes;
     double wide_mean[9], wide_covariance[81], narrow_mean[6], narrow_covariance[36];
-    const detail::View wide{wide_mean, wide_covariance, all}, narrow{narrow_mean, narrow_covariance, 2 * axes};
+    const detail::View wide{wide_mean, wide_covariance, 3 * axes}, narrow{narrow_mean, narrow_covariance, 2 * axes};
     (released ? detail::released_start : detail::three_point_start)(view(3), view(2), view(1), wide);
     detail::two_point_start(view(2), view(1), narrow);
     return leading(points.back().first, wide, released ? wide : narrow);

@@ -16,6 +16,8 @@ namespace {
 using detail::ConstView;
 using detail::View;
 
+static_assert(AnyModel::max_state_size <= detail::small_size);
+
 void write_root(const double* covariance, int n, const AnyModel& model, double* root) {
   if (const int component = detail::covariance_root(covariance, n, root))
     detail::refuse_covariance(model.name(), component);
