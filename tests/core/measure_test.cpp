@@ -38,13 +38,13 @@ TEST(Event, IsUnitedIntersectedAndComplemented) {
   EXPECT_EQ(a & b, (Event{age, {"young"}}));
   EXPECT_EQ(~a, (Event{age, {"middle", "old"}}));
   EXPECT_EQ(a & ~a, empty_event(age));
-  EXPECT_EQ(a | ~a, whole_event(age));
+  EXPECT_EQ(a | ~a, ~empty_event(age));
   EXPECT_NE(a, b);
 }
 
 TEST(Event, OfAnotherVariableIsAnotherEvent) {
   const FuzzyVariable years{"years", {"child", "young", "middle", "old"}};
-  EXPECT_NE(whole_event(age), whole_event(years));
+  EXPECT_NE(~empty_event(age), ~empty_event(years));
 }
 
 TEST(Event, DescribesItself) {
@@ -59,9 +59,9 @@ TEST(Event, RefusesAnOutcomeThatTheVariableDoesNotHave) {
 
 TEST(Event, RefusesOperationsWithEventsOfAnotherVariable) {
   const FuzzyVariable mood{"mood", {"calm", "wild"}};
-  EXPECT_INVALID(("union", "'age'", "'mood'"), whole_event(age) | whole_event(mood));
-  EXPECT_INVALID(("intersection", "'age'", "'mood'"), whole_event(age) & whole_event(mood));
-  EXPECT_INVALID(("measure", "'age'", "'mood'"), possibility(belief, whole_event(mood)));
+  EXPECT_INVALID(("union", "'age'", "'mood'"), ~empty_event(age) | ~empty_event(mood));
+  EXPECT_INVALID(("intersection", "'age'", "'mood'"), ~empty_event(age) & ~empty_event(mood));
+  EXPECT_INVALID(("measure", "'age'", "'mood'"), possibility(belief, ~empty_event(mood)));
 }
 
 TEST(Given, IsExactForEventsOfSubnormalMeasure) {

@@ -64,19 +64,6 @@ TEST(ModelsWalk, AModelOfOnesOwn) {
   EXPECT_CLOSE(linearised_step(pendulum, at_rest, 0.1).F, (SquareMatrix<2>{{1.0 - 0.0981, 0.1}, {-0.981, 1.0}}), 1e-15);
 }
 
-struct Altimeter {
-  static constexpr int seen_size = 3;
-  static constexpr int measurement_size = 1;
-  Vector<1> measure(const Vector<3>& position) const { return Vector<1>(position.z()); }
-  Eigen::RowVector3d measurement_jacobian(const Vector<3>&) const { return {0.0, 0.0, 1.0}; }
-};
-
-TEST(ModelsWalk, ASensorOfOnesOwn) {
-  Gaussian<6> x{Vector<6>::Zero(), SquareMatrix<6>::Identity()};
-  EXPECT_EQ(update(dwna<3>(3.0), x, {Vector<1>(5.0), SquareMatrix<1>(1.0)}, Altimeter{}, x).residual(0), 5.0);
-  EXPECT_CLOSE(x.mean(2), 2.5, 1e-15);
-}
-
 TEST(ModelsWalk, Conversion) {
   const Polar seen{145e3, degrees(33.7), degrees(7.9)}, sigma{100.0, degrees(2.9), degrees(2.9)};
   const Gaussian<3> z = to_cartesian(seen, sigma, Conversion::unbiased);  // to_cartesian<2> in the plane

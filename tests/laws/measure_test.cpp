@@ -58,7 +58,7 @@ TYPED_PROPERTY(MeasureLaws, EventsAreABooleanAlgebra) {
   RC_ASSERT((a & (b | c)) == ((a & b) | (a & c)));
   RC_ASSERT((a | (a & b)) == a);
   RC_ASSERT((a & ~a) == empty_event(x));
-  RC_ASSERT((a | ~a) == whole_event(x));
+  RC_ASSERT((a | ~a) == ~empty_event(x));
 }
 
 PROPERTY(PossibilityLaws, NecessityIsOneLessThePossibilityOfTheComplement) {  // N(A) = 1 − Π(Aᶜ) = min over Aᶜ of 1 − π

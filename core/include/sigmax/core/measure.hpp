@@ -79,14 +79,10 @@ class Event {
   std::vector<bool> members_;
 };
 
-/// The event that no outcome belongs to, ∅, and the one that every outcome belongs to, Ψ or Ω.
+/// The event that no outcome belongs to, ∅. Its complement has every outcome, Ψ or Ω.
 template <Uncertainty Kind>
 Event<Kind> empty_event(Variable<Kind> variable) {
   return {std::move(variable), std::span<const std::size_t>{}};
-}
-template <Uncertainty Kind>
-Event<Kind> whole_event(Variable<Kind> variable) {
-  return ~empty_event(std::move(variable));
 }
 
 /// How much of a distribution an event holds: ⊕ over its outcomes. `possibility` or `probability` for generic code.

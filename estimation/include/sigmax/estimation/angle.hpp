@@ -11,10 +11,7 @@ class Angle {
   constexpr double radians() const { return radians_; }
   constexpr double degrees() const { return radians_ * (180.0 / std::numbers::pi); }
   constexpr bool operator==(const Angle&) const = default;
-  constexpr Angle& operator+=(Angle other) {
-    radians_ += other.radians_;
-    return *this;
-  }
+  constexpr Angle& operator+=(Angle other) { return *this = Angle(radians_ + other.radians_); }
   friend constexpr Angle operator+(Angle a, Angle b) { return a += b; }
   friend constexpr Angle operator*(double factor, Angle angle) { return Angle(factor * angle.radians_); }
 

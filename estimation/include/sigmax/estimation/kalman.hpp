@@ -104,10 +104,6 @@ template <StateModel Model>
 EstimateOf<Model> update(const Model& model, const EstimateOf<Model>& prior, const Gaussian<Model::axes>& measurement) {
   return update(model, prior, measurement, PositionSensor<Model::axes>{});
 }
-template <StateModel Model, SensorOf<Model> Sensor>
-EstimateOf<Model> update(const Model& model, const EstimateOf<Model>& prior, const MeasuredBy<Sensor>& measured) {
-  return update(model, prior, measured.z, measured.sensor);
-}
 /// @}
 
 }  // namespace sigmax

@@ -33,13 +33,14 @@ class BankFilter : public Filter {
   /// of another size than its model.
   template <class... Rules>
   BankFilter(const Models& models, ModeTransition<kind> transition, const Starts& start, const Rules&... rules)
-      : Filter(detail::bank_of(models), std::move(transition), detail::starts_of(start), rules...) {
-    require_components();
-  }
+      : BankFilter(models, std::move(transition), detail::starts_of(start), rules...) {}
   template <class... Rules>
   BankFilter(const Models& models, ModeTransition<kind> transition, const Estimates& start, const Rules&... rules)
       : Filter(detail::bank_of(models), std::move(transition), start, rules...) {
-    require_components();
+    if (this->component_count() > Bank<Models>::max_components)
+      throw std::invalid_argument("the models have " + std::to_string(this->component_count()) +
+                                  " different components, but their type allows " +
+                                  std::to_string(Bank<Models>::max_components));
   }
 
   /// Starts every model from the components that it has of one estimate, given in the order of `components()`.
@@ -54,8 +55,9 @@ class BankFilter : public Filter {
   /// `accepted()` is false.
   /// Throws std::invalid_argument if dt or the measurement is not finite, std::domain_error, saying in which step, if S
   /// is not positive definite or every mode is excluded. The filter's state is then what it was before.
-  template <SensorOfBank<Models> Sensor>
+  template <Sensing Sensor>
   void step(double dt, const MeasurementOf<Sensor>& z, const Sensor& sensor, const Gate& gate = {}) {
+    static_assert(SensorOfBank<Sensor, Models>, "this sensor does not measure the states of the bank: other axes?");
     const Seen seen{detail::view(z), detail::sensor_of_models<Models>(sensor)};
     Filter::step(dt, &seen, gate);
   }
@@ -63,10 +65,7 @@ class BankFilter : public Filter {
   /// The same with what says by which sensor it was measured.
   template <class Sensor>
   void step(double dt, const MeasuredBy<Sensor>& measured, const Gate& gate = {}) {
-    if constexpr (SensorOfBank<Sensor, Models>)
-      step(dt, measured.z, measured.sensor, gate);
-    else
-      static_assert(SensorOfBank<Sensor, Models>, "this sensor does not measure the states of the bank: other axes?");
+    step(dt, measured.z, measured.sensor, gate);
   }
 
   /// The same with a measurement of the position, which leads the state of every model.
@@ -77,8 +76,7 @@ class BankFilter : public Filter {
   template <int N, int MaxN>
     requires(axes != Eigen::Dynamic && axes != N)
   void step(double, const Gaussian<N, MaxN>&, const Gate& = {}) {
-    static_assert(axes == N,
-                  "a Gaussian is a position along the bank's axes; others are sensor.measurement(seen, sigma)");
+    static_assert(axes == N, "a Gaussian is a position along the bank's axes; give another with its sensor");
   }
 
   /// One cycle without a measurement, `step(dt)`: the models predict and the mode moves on.
@@ -135,13 +133,6 @@ class BankFilter : public Filter {
   }
 
  private:
-  void require_components() const {
-    if (this->component_count() > Bank<Models>::max_components)
-      throw std::invalid_argument("the models have " + std::to_string(this->component_count()) +
-                                  " different components, but their type allows " +
-                                  std::to_string(Bank<Models>::max_components));
-  }
-
   template <class Write>
   Estimate written(const Write& write) const {
     Estimate result;

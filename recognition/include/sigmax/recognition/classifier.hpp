@@ -201,9 +201,7 @@ class Classifier {
       const Outcomes& of = reading ? reading->variable : std::get<Likelihood<Feature>>(finding).variable();
       const std::size_t n = features_.size(), first = result.empty() ? 0 : result.back() + 1;
       std::size_t k = 0;
-      const auto matches = [&](const auto& feature) {
-        return of == (reading ? feature.readings() : static_cast<const Outcomes&>(feature.feature()));
-      };
+      const auto matches = [&](const auto& at) { return of == (reading ? at.readings() : at.feature()); };
       while (k < n && !matches(features_[(first + k) % n])) ++k;
       if (k == n)
         throw std::invalid_argument("the classifier of '" + prior_.variable().name() + "' has no feature '" +
