@@ -263,32 +263,6 @@ TEST(HimmDemoRecording, ErrorsAreThoseAgainstTheTruthWhereItIsGiven) {
     }
 }
 
-TEST(HimmDemoRecording, TwoAxesOfGeodeticInputEqualThoseOfItsLocalPositions) {
-  const LocalFrame frame({50.8, -1.1, 0.0}, 2);
-  std::string geodetic = "time_s,latitude_deg,longitude_deg\n", cartesian = "time_s,x_m,y_m\n";
-  for (int k = 0; k < 60; ++k) {
-    const double latitude = 50.8 + 0.002 * k, longitude = -1.1 - 0.003 * k;
-    const auto [x, y, z] = frame.to_local({latitude, longitude, 0.0});
-    geodetic += std::to_string(10 * k) + "," + exact(latitude) + "," + exact(longitude) + "\n";
-    cartesian += std::to_string(10 * k) + "," + exact(x) + "," + exact(y) + "\n";
-  }
-  const auto found = estimates(geodetic), expected = estimates(cartesian);
-  ASSERT_EQ(found.size(), 2U * 57U);
-  ASSERT_EQ(expected.size(), found.size());
-  for (std::size_t k = 0; k < found.size(); ++k) {
-    for (const char* name : {"x_m", "y_m"})
-      ASSERT_CLOSE(std::stod(found[k].at(name)), std::stod(expected[k].at(name)), 1e-9);
-    // Along east there, not along that of the origin: on 10 km at 51° north they differ by 0.1°.
-    EXPECT_NEAR(std::stod(found[k].at("vx_mps")), std::stod(expected[k].at("vx_mps")), 0.1);
-    EXPECT_EQ(found[k].at("z_m"), "");
-    EXPECT_EQ(found[k].at("altitude_m"), "");
-    const auto [x, y, z] =
-        frame.to_local({std::stod(found[k].at("latitude_deg")), std::stod(found[k].at("longitude_deg")), 0.0});
-    EXPECT_NEAR(x, std::stod(found[k].at("x_m")), 1e-6);
-    EXPECT_NEAR(y, std::stod(found[k].at("y_m")), 1e-6);
-  }
-}
-
 /// Three tracks of one file, whose rows lie between each other's in time; `axes` columns of positions.
 struct Interleaved {
   std::string all;

@@ -174,20 +174,6 @@ TEST(HimmDemoVelocity, BearingsCountBetweenPositionsAndAlone) {
   }
 }
 
-/// An aircraft that flies east round the pole, far from where its frame began: its east is that where it is.
-TEST(HimmDemoVelocity, OfAPlaceIsAlongItsOwnEastAndNorth) {
-  const auto text = recording(
-      "time_s,latitude_deg,longitude_deg,speed_kt,course_deg",
-      [](int k) {  // 600 kt along the parallel of 60° north, said without an error
-        return exact(10.0 * k) + ",60," + exact(10.0 * k * 600.0 / 3600.0 / 60.0 / std::cos(60.0 * degree)) + ",600,90";
-      },
-      400);
-  for (const auto& row : estimates(text, {"sigma_velocity_mps=0.1", "sigma_position_m=1000"})) {
-    EXPECT_NEAR(number(row.at("vx_mps")), 600.0 * knot, 1.0);
-    EXPECT_NEAR(number(row.at("vy_mps")), 0.0, 1.0);
-  }
-}
-
 /// Where a truth is told, all positions are about one point; the first rows come before there is an estimate.
 TEST(HimmDemoVelocity, OfAPlaceIsTakenBeforeTheStartToo) {
   const auto text = recording(
