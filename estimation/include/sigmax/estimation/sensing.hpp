@@ -110,7 +110,7 @@ using MeasurementOf = Gaussian<Sensor::measurement_size, detail::max_measurement
 ///     const auto seen = PolarSensor<2>{radar}.measurement({5e3, degrees(40)}, {10.0, degrees(0.1)});
 ///     filter.step(1.0, seen);
 ///     filter.step(0.5, MeasuredBy{Gaussian<1>{…}, Speedometer{}});   // of a sensor of your own
-template <Sensing Sensor>
+template <class Sensor>  // a sensor returns it before its own class is complete, and g++ would not see that it is one
 struct MeasuredBy {
   MeasurementOf<Sensor> z;
   Sensor sensor;
