@@ -3,12 +3,7 @@
 namespace sigmax::apps {
 
 // One subcommand a file: each adds its options, and does its work when it was asked for.
-void add_simulate(CLI::App& program, const std::string& command);
-void add_reproduce(CLI::App& program, const std::string& command);
-void add_sweep(CLI::App& program, const std::string& command);
-void add_track(CLI::App& program, const std::string& command);
-void add_tune(CLI::App& program, const std::string& command);
-void add_keys(CLI::App& program, const std::string& command);
+AddSubcommand add_simulate, add_reproduce, add_sweep, add_track, add_tune, add_keys;
 
 }  // namespace sigmax::apps
 

@@ -241,10 +241,8 @@ void report(const ReproduceOptions& options, const std::vector<Condition>& condi
   }
   result.say(
       "(Scenario/group, filter : its reference, phase and axis. A figure is a relative difference of RMSE, unless "
-      "another quantity is named. Intervals are ± 95 % by paired runs, together for all figures of a sentence. Shown "
-      "is the least favourable figure, against the correct IMM; \"sure\" counts the figures whose interval is where "
-      "the "
-      "sentence wants it.)");
+      "another quantity is named, ± 95 % by paired runs, together for all figures of a sentence. It is the least "
+      "favourable one, against the correct IMM; \"sure\" counts the figures that are where the sentence wants them.)");
   for (const Preset preset : both_presets) {
     const HeatMap map = overview_of(conditions, names_of(conditions), preset);
     result.add(table_of(map), {.heading = map.title + ", mean over axes and phases",

@@ -122,8 +122,7 @@ Drawn draw_run(const EsmWorld& world, const EsmTruth& truth, std::size_t reports
   return run;
 }
 
-NamedClassifier usage_aware_classifier(const EsmWorld& world, const Usage& usage,
-                                       const Relation<Random, Random>& sensor) {
+NamedClassifier usage_aware(const EsmWorld& world, const Usage& usage, const Relation<Random, Random>& sensor) {
   std::vector<std::vector<double>> usages, platforms;
   std::vector<double> prior;
   for (std::size_t c = 0; c < world.platform.size(); ++c) {
@@ -168,7 +167,7 @@ std::vector<NamedClassifier> contestants(const EsmWorld& world, const EsmOptions
       read_by("max-sigma, ratio scale", usage, ratio),
       read_by("max-sigma, Dubois-Prade", usage, dubois_prade),
   };
-  if (options.alpha) all.push_back(usage_aware_classifier(world, usage_of(options), sensor));
+  if (options.alpha) all.push_back(usage_aware(world, usage_of(options), sensor));
   return all;
 }
 

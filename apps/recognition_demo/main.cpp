@@ -3,10 +3,7 @@
 namespace sigmax::apps {
 
 // One subcommand a file: each adds its options, and does its work when it was asked for.
-void add_esm(CLI::App& program, const std::string& command);
-void add_train(CLI::App& program, const std::string& command);
-void add_classify(CLI::App& program, const std::string& command);
-void add_evaluate(CLI::App& program, const std::string& command);
+AddSubcommand add_esm, add_train, add_classify, add_evaluate;
 
 }  // namespace sigmax::apps
 

@@ -43,7 +43,7 @@ std::vector<NamedClassifier> from_the_lists(const EsmWorld& world, const Setting
   const auto probable = with_random_condition(to_probability(possible, RatioScale{}));
   const auto sensor = world.sensor(setting.hit);
   auto all = equally_informed(probable, possible, sensor, setting.truth.sensors);
-  if (setting.averaged) all.push_back(usage_aware_classifier(world, setting.truth.usage, sensor));
+  if (setting.averaged) all.push_back(usage_aware(world, setting.truth.usage, sensor));
   return all;
 }
 

@@ -130,8 +130,7 @@ NamedClassifier read_by(std::string name, const Relation<Kind, Kind>& emitter_gi
 
 /// Sigma inference that knows how usages are drawn and averages over them: its patterns are usages, a grid of equal
 /// probability for Dirichlet(α). The reference: nothing can be better but by what the grid leaves out.
-NamedClassifier usage_aware_classifier(const EsmWorld& world, const Usage& usage,
-                                       const Relation<Random, Random>& sensor);
+NamedClassifier usage_aware(const EsmWorld& world, const Usage& usage, const Relation<Random, Random>& sensor);
 
 /// The names of the regimes: ways in which beliefs about the emitter world are wrong.
 std::vector<std::string> regime_names();

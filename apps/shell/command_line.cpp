@@ -308,7 +308,7 @@ int run_command_line(const ProgramOutline& outline, int argc, char** argv) {
   app.set_version_flag("--version", fmt::format("{} {}", outline.name, version));
   app.require_subcommand(outline.default_subcommand.empty() ? 1 : 0, 1);
   app.footer(fmt::format("{} SUBCOMMAND --help lists the options of a subcommand, with examples.", outline.name));
-  for (const AddSubcommand add : outline.subcommands) add(app, command);
+  for (AddSubcommand* const add : outline.subcommands) add(app, command);
   for (CLI::App* const subcommand : app.get_subcommands({}))
     subcommand->footer(section(outline.usage, subcommand->get_name()));
 

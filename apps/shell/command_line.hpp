@@ -114,7 +114,7 @@ class Subcommand {
 
 /// Adds one subcommand with its options to the program; its callback does the work. `command` is the whole command as
 /// typed.
-using AddSubcommand = void (*)(CLI::App& program, const std::string& command);
+using AddSubcommand = void(CLI::App& program, const std::string& command);
 
 /// --seed, which refuses what is no whole number below 2^64.
 void add_seed(Subcommand app, std::uint64_t& seed, const std::string& of_what = "of the random numbers");
@@ -124,7 +124,7 @@ void add_threads(Subcommand app, int& threads);
 
 struct ProgramOutline {
   std::string name, description;
-  std::vector<AddSubcommand> subcommands;
+  std::vector<AddSubcommand*> subcommands;
   std::string default_subcommand;  ///< what runs without a subcommand, with all options
   std::string_view usage = {};     ///< what help says below the options: after a line [NAME] that of a subcommand
 };

@@ -51,12 +51,6 @@ Statement statement(const std::string& line) {
   return result;
 }
 
-/// Whether the paper has such a filter.
-bool in_the_paper(const FilterSettings& filter) {
-  return filter.scheme == Scheme::interacting && !filter.smooth && filter.sojourn_s.empty() &&
-         filter.radar_measurement == RadarForm::standard;
-}
-
 Finding finding_of(const Interval& interval, const Region& region) {
   if (interval.lower() > region.above && interval.upper() < region.below) return Finding::inside;
   if (interval.upper() < region.above || interval.lower() > region.below) return Finding::outside;
@@ -196,7 +190,9 @@ const std::vector<Sentence>& sentences() {
 
 std::optional<double> paper_cross_time(int scenario, int group, const FilterSettings& filter) {
   constexpr double times[2][2] = {{85.92, 83.77}, {32.28, 31.88}};  // by scenario; IMM and HIMM, in group 1
-  if (group != 1 || !in_the_paper(filter)) return std::nullopt;
+  if (group != 1 || filter.scheme != Scheme::interacting || filter.smooth || !filter.sojourn_s.empty() ||
+      filter.radar_measurement != RadarForm::standard)
+    return std::nullopt;  // the paper has no such filter
   return times[scenario - 1][filter.fuzzy ? 1 : 0];
 }
 

@@ -402,9 +402,7 @@ std::vector<FilterSettings> filters_for(RecordingOptions& recording, const Filte
 
 void add_filter_options(Subcommand app, FilterOptions& options) {
   app.option("--config", options.config, "Settings in TOML").type("FILE.toml");
-  app.option("--set", options.sets, "One setting, as augmentation=unbiased; may be repeated")
-      .type("KEY=VALUE")
-      .repeated();
+  app.option("--set", options.sets, "One setting, as sigma_w=5; may be repeated").type("KEY=VALUE").repeated();
   app.flag("--print-config", options.print_config, "Print the settings in force and stop");
 }
 

@@ -121,7 +121,7 @@ std::vector<Panel> TrackPage::charts(const Track& track) const {
     LineChart made = chart(track, title, y_label + "; band: ± 2 σ");
     const bool is_height = estimate == position_at + 2;
     const auto values = [&](std::size_t from) { return is_height ? heights(track, from) : track.rows.column(from); };
-    if (estimate < error_at) add(dots(measurement_name, measurement_name, values(detection_at + estimate)), made);
+    if (estimate < error_at) add(dots(measurement_name, measurement_name, values(row_at + estimate)), made);
     add({truth_name, truth_name, values(truth)}, made);
     for (std::size_t f = 0; f < filters_.size(); ++f)
       add({filters_[f].name, filters_[f].name, values(column(f, estimate))}, made, track.rows.column(column(f, sigma)));
@@ -160,7 +160,7 @@ void TrackPage::add_errors(const Track& track, std::vector<Panel>& panels) const
   for (std::size_t axis = 0; axis < static_cast<std::size_t>(recording_.axes()); ++axis) {
     const std::string along = (recording_.on_the_earth() ? geodetic_names : cartesian_names)[axis];
     LineChart errors = chart(track, "Error in " + along, "error, m; band: ± 2 σ");
-    add(dots(measurement_name, measurement_name, track.rows.column(detection_error_at + axis)), errors);
+    add(dots(measurement_name, measurement_name, track.rows.column(row_error_at + axis)), errors);
     for (std::size_t f = 0; f < filters_.size(); ++f) {
       const std::string& filter = filters_[f].name;
       const auto sigma = track.rows.column(column(f, sigma_at + axis));

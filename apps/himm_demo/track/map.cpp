@@ -57,7 +57,7 @@ MapChart TrackPage::plan(const std::string& name, const Track& track) const {
   const auto put = [&](PlanTrace made) {
     if (!made.x.empty()) plan.traces.push_back(std::move(made));
   };
-  put(traced({measurement_name, measurement_name, PlanTrace::Shape::dots}, track, detection_at));
+  put(traced({measurement_name, measurement_name, PlanTrace::Shape::dots}, track, row_at));
   if (truth_known_) put(traced({truth_name, truth_name}, track, truth_at));
   for (std::size_t f = 0; f < filters_.size(); ++f)
     put(traced({filters_[f].name, filters_[f].name}, track, column(f, position_at)));
@@ -92,7 +92,7 @@ MapChart TrackPage::map_of_all() const {
     const auto& [name, track] = *one;
     const bool followed = track.estimates > 0;
     PlanTrace made{.name = name, .shape = followed ? PlanTrace::Shape::line : PlanTrace::Shape::dots};
-    made = traced(std::move(made), track, followed ? column(0, position_at) : detection_at, step);
+    made = traced(std::move(made), track, followed ? column(0, position_at) : row_at, step);
     if (track.anchor) {
       const LocalFrame own(*track.anchor, recording_.axes());
       if (!frame) frame = own;

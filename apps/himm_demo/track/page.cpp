@@ -43,7 +43,7 @@ TrackPage::Track* TrackPage::track_of(const Row& row) {
   const double time = row.detection.time;
   const bool has_date = recording_.times_are_numbers() ? time >= 1e9 && time < 4e9 : !recording_.times_of_day();
   if (tracks_.empty() && has_date) clock_ = time;
-  std::vector<std::size_t> watched = {detection_error_at, detection_error_at + 1, detection_error_at + 2};
+  std::vector<std::size_t> watched = {row_error_at, row_error_at + 1, row_error_at + 2};
   for (std::size_t f = 0; f < filters_.size(); ++f)
     for (std::size_t i = 0; i < weights_at + models_.size(); ++i)
       if (i < sigma_at || i == moves_at || i == moves_at + 4 || i == outlier_at || i >= weights_at)
@@ -57,7 +57,7 @@ TrackPage::Track* TrackPage::track_of(const Row& row) {
 
 /// Where a filter's columns are.
 std::size_t TrackPage::column(std::size_t filter, std::size_t i) const {
-  return detection_columns + filter * (weights_at + models_.size()) + i;
+  return row_columns + filter * (weights_at + models_.size()) + i;
 }
 
 /// So many rows as make a page of some MB: a curve and its band take about 20 bytes a row.
@@ -114,9 +114,9 @@ void TrackPage::measured(const Row& row, const std::optional<Position>& position
     const int axis = static_cast<int>(i);
     const bool is_seen = position && (axis >= axes || component_of(row.detection, axis) ||
                                       (is_seen_from && axis < axes_seen(row.detection, axes)));
-    if (is_seen) numbers[detection_at + i] = (*position)[i];
+    if (is_seen) numbers[row_at + i] = (*position)[i];
     if (row.truth) numbers[truth_at + i] = (*row.truth)[i];
-    if (is_seen && row.truth) numbers[detection_error_at + i] = (*position)[i] - (*row.truth)[i];
+    if (is_seen && row.truth) numbers[row_error_at + i] = (*position)[i] - (*row.truth)[i];
   }
   if (row.truth) {  // from its last place to this one
     Position velocity{};

@@ -40,8 +40,7 @@ class TrackPage {
   static constexpr std::size_t recent_rows = 20;  // whose mean NIS is drawn
 
   /// Columns of a measurement: its position, its error, where the target was, and its speed, course and climb.
-  static constexpr std::size_t detection_at = 0, detection_error_at = 3, truth_at = 6, truth_moves_at = 9,
-                               detection_columns = 12;
+  static constexpr std::size_t row_at = 0, row_error_at = 3, truth_at = 6, truth_moves_at = 9, row_columns = 12;
 
   /// Columns of an estimate; the weights of the models follow. Speed, course and climb have their σ beside them.
   static constexpr std::size_t position_at = 0, error_at = 3, sigma_at = 6, moves_at = 9, nis_at = 15,

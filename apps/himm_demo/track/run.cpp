@@ -128,8 +128,8 @@ class TrackRun {
 
   void step(Target& target, Row row) {
     TrackTally& tally = target.tally;
-    const bool again =
-        row.detection.time == tally.last_time;  // of another sensor: nothing starts from two rows of one time
+    // Of another sensor: nothing starts from two rows of one time.
+    const bool again = row.detection.time == tally.last_time;
     if (tally.rows == 0) tally.first_time = row.detection.time;
     tally.last_time = row.detection.time;
     row.detection.tag = tally.rows++;

@@ -197,15 +197,13 @@ Candidate fitted(const std::string& name, FilterSettings base, const TuneData& d
   Candidate best;
   const bool prequential = options.objective == Objective::prequential;
   const RowFolds folds = data.folds(options.folds);
-  std::vector<StateAugmentation> augmentations = {base.augmentation};
-  for (const StateAugmentation augmentation :
-       {StateAugmentation::zero, StateAugmentation::borrowed_variance, StateAugmentation::unbiased})
-    if (options.fits("augmentation") && augmentation != base.augmentation && base.motions.size() > 1)
-      augmentations.push_back(augmentation);
+  std::vector<StateAugmentation> rules = {base.augmentation};
+  for (const auto rule : {StateAugmentation::zero, StateAugmentation::borrowed_variance, StateAugmentation::unbiased})
+    if (options.fits("augmentation") && rule != base.augmentation && base.motions.size() > 1) rules.push_back(rule);
   double least = infinity;
-  for (const StateAugmentation augmentation : augmentations) {
+  for (const StateAugmentation rule : rules) {
     const auto numbers = free_numbers(base, data, options);
-    base.augmentation = augmentation;
+    base.augmentation = rule;
     const auto objective = [&](const RowLosses& all, const RowCounts& counts) {
       return objective_of(data, all, options.objective, counts);
     };
