@@ -55,9 +55,8 @@ class BankFilter : public Filter {
   /// `accepted()` is false.
   /// Throws std::invalid_argument if dt or the measurement is not finite, std::domain_error, saying in which step, if S
   /// is not positive definite or every mode is excluded. The filter's state is then what it was before.
-  template <Sensing Sensor>
+  template <SensorOfBank<Models> Sensor>
   void step(double dt, const MeasurementOf<Sensor>& z, const Sensor& sensor, const Gate& gate = {}) {
-    static_assert(SensorOfBank<Sensor, Models>, "this sensor does not measure the states of the bank: other axes?");
     const Seen seen{detail::view(z), detail::sensor_of_models<Models>(sensor)};
     Filter::step(dt, &seen, gate);
   }
@@ -65,6 +64,7 @@ class BankFilter : public Filter {
   /// The same with what says by which sensor it was measured.
   template <class Sensor>
   void step(double dt, const MeasuredBy<Sensor>& measured, const Gate& gate = {}) {
+    static_assert(SensorOfBank<Sensor, Models>, "this sensor does not measure the states of the bank: other axes?");
     step(dt, measured.z, measured.sensor, gate);
   }
 
