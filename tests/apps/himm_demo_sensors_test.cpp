@@ -1,6 +1,8 @@
 // Sensors where they stand: radars and stations of bearings, in metres and on the Earth, against rows that are
 // converted by hand; on the Earth against where the target is.
 
+#include <sigmax/earth/local_frame.hpp>
+
 #include "apps/recordings.hpp"
 
 namespace himm_demo_sensors_test {

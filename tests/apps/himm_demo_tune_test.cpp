@@ -232,7 +232,7 @@ TEST_F(Tune, FindsTheNoiseOfVelocitiesBesideThatOfATargetWhichTurns) {
   };
   const auto file = directory.write("flight.csv", apps::recording("time_s,x_m,y_m,vx_mps,vy_mps", row, 500));
   const auto toml =
-      fitted(words("--set filters=imm --starts 1 --set sigma_velocity_mps=1 --models known_turn " + file));
+      fitted(words("--set filters=imm --starts 1 --set sigma_velocity_mps=1 --models known_turn") + Arguments{file});
   EXPECT_NEAR(value_in(toml, "sigma_velocity_mps"), 0.5, 0.1) << toml;
   EXPECT_NEAR(value_in(toml, "sigma_w"), 0.5, 0.1) << toml;
 }

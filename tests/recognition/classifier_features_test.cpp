@@ -279,8 +279,8 @@ TYPED_TEST(ClassifierWithFeatures, ForgetsALongBatchWithoutLosingWhatIsExcluded)
   const Numbers prior = by_kind<TypeParam> == By::sum ? Numbers{0.5, 0.0, 0.5} : Numbers{1.0, 0.0, 1.0};
   Classifier classifier{Distribution{pattern, prior}, Relation{feature, pattern, rows}};
   Belief belief{classifier.prior()};
-  const Readings zero{0};
-  classifier.observe_all(belief, std::vector(2000, InOrder{zero}), 0.25);  // 0.25²⁰⁰⁰ is no double
+  // 0.25²⁰⁰⁰ is no double
+  classifier.observe_all(belief, std::vector(2000, Report<TypeParam>{Reading{feature, 0}}), 0.25);
   EXPECT_EQ(belief.log(1), log_zero);
   // What is left of the reports is a geometric series: Σ 4⁻ᵏ = 4/3.
   const double ratio = std::pow(rows[2][0] / rows[0][0], 4.0 / 3.0);

@@ -199,11 +199,13 @@ struct Reporter {
     add("sigma", "σ, m:", sums.sigma);
     const InnovationTally& nis = sums.innovations;
     const bool judged = filter && nis.count() > 0;
-    fields.push_back({{.key = "mean_nis", .header = "mean", .sized = true, .group = "NIS:"},
-                      judged ? Cell(nis.mean_nis()) : Cell()});
+    const double right = outcome.filters[0].sums[p].innovations.expected_nis();
+    const std::string mean = right > 0.0 ? fmt::format("mean ({:.2g})", right) : "mean";
+    fields.push_back(
+        {{.key = "mean_nis", .header = mean, .sized = true, .group = "NIS:"}, judged ? Cell(nis.mean_nis()) : Cell()});
     fields.push_back({{.key = "median_nis", .header = "median", .sized = true, .group = "NIS:"},
                       judged ? Cell(nis.median_nis()) : Cell()});
-    fields.push_back({{.key = "nis_inside_95", .header = "in 95 %", .digits = 1, .scale = 100.0, .group = "NIS:"},
+    fields.push_back({{.key = "nis_inside_95", .header = "95 %", .digits = 1, .scale = 100.0, .group = "NIS:"},
                       judged ? Cell(nis.share_inside()) : Cell()});
     std::vector<std::string> weights;
     std::map<std::string, double> by_model;
