@@ -3,7 +3,7 @@
 /// Everything of sigmax.
 
 #if !__has_include(<Eigen/Dense>)
-#error "<sigmax/sigmax.hpp> needs Eigen 3.4 (libeigen3-dev); <sigmax/core.hpp> and the headers of sigmax/recognition do without"
+#error "<sigmax/sigmax.hpp> needs Eigen 3.4 (libeigen3-dev); <sigmax/core.hpp> and sigmax/recognition do without"
 #endif
 
 #include <sigmax/core.hpp>
