@@ -6,7 +6,7 @@
 
 namespace sigmax {
 
-/// What a measurement told beyond its prediction.
+/// The innovation of a measurement: its difference from the prediction.
 template <int M, int MaxM = M>
 struct Innovation {
   Vector<M, MaxM> residual;          ///< ν = z − h(x)

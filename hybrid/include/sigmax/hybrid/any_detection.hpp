@@ -9,7 +9,7 @@
 
 namespace sigmax {
 
-/// What a target is told at one time, in plain numbers. The functions fill one; the tag may be set afterwards:
+/// A detection of a target at one time, in plain numbers. The functions make one; the tag may be set afterwards:
 ///
 ///     AnyDetection detection = AnyDetection::polar(0.2, std::array{5030.2, 0.1096}, std::array{100.0, 4e-6});
 ///     detection.tag = 17;

@@ -11,7 +11,7 @@
 
 namespace sigmax {
 
-/// What a tracker is told at one time: a measurement with the sensor that made it, or that there was none. The tag, the
+/// A detection at one time: a measurement with the sensor that made it, or a missed measurement. The tag, the
 /// number of a row say, comes back with what the detection leads to.
 class Detection {
  public:

@@ -25,8 +25,7 @@ template <ScalableUncertainty Kind>
 struct RecordedStep {
   double dt;  ///< since the step before, in s; ignored in the first record
   HybridEstimate<Kind> state;
-  std::vector<FutureEvidence>
-      seen;  ///< what the measurement told each mode, about its estimate; empty if there was none
+  std::vector<FutureEvidence> seen;  ///< the measurement's information on each mode's estimate; empty if it was missed
 };
 
 }  // namespace sigmax

@@ -76,9 +76,10 @@ class MultipleModelFilter {
   void restart(const Estimates& starts);
   void restart(detail::ConstView start);
 
-  /// Tells the state in other coordinates, p → A p + b of the position along the axes, A p of its derivatives; further
-  /// components stay. A by columns. For models whose components are ordered by derivative. Goes on as if it had been
-  /// told so from the start, but for StateAugmentation::borrowed_variance, which borrows along the axes.
+  /// Changes the coordinates of the state: p → A p + b for the position along the axes, A p for its derivatives;
+  /// further components stay. A by columns. For models whose components are ordered by derivative. The filter goes on
+  /// as if the coordinates had been these from the start, except that StateAugmentation::borrowed_variance borrows
+  /// along the axes.
   virtual void transform(const double* A, const double* b, int axes);
 
   /// One cycle, with a measurement or without; see BankFilter.
