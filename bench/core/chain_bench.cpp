@@ -66,22 +66,6 @@ void chain_of_alternating_kinds(benchmark::State& state) {
   count_links(state);
 }
 
-/// The same chain as plain tables: what it would cost if nothing could underflow, and what subnormal numbers do to it.
-template <Uncertainty Kind>
-void plain_rows(benchmark::State& state) {
-  const auto next = transition<Kind>(size(state), 1, static_cast<double>(state.range(1)) / 100.0);
-  Table result(1, size(state));
-  for (auto _ : state) {
-    Table row(1, size(state), 1.0);
-    for (int link = 0; link < links; ++link) {
-      kernels::compose<AlgebraOf<Kind>>(next.rows(), row, result);
-      std::swap(row, result);
-    }
-    benchmark::DoNotOptimize(row.data());
-  }
-  count_links(state);
-}
-
 /// A chain that remembers its winners, and the route at its end.
 template <Uncertainty Kind>
 void routes(benchmark::State& state) {
@@ -183,8 +167,6 @@ BENCHMARK(chain_with_evidence<Random>)->Apply(sizes_and_subnormals);
 BENCHMARK(chain_with_evidence<Fuzzy>)->Apply(sizes_and_subnormals);
 BENCHMARK(chain_without_evidence<Random>)->Apply(sizes_and_subnormals);
 BENCHMARK(chain_without_evidence<Fuzzy>)->Apply(sizes_and_subnormals);
-BENCHMARK(plain_rows<Random>)->Apply(sizes_and_subnormals);
-BENCHMARK(plain_rows<Fuzzy>)->Apply(sizes_and_subnormals);
 BENCHMARK(chain_of_alternating_kinds)->Apply(sizes_and_subnormals);
 BENCHMARK(chain_posteriors<Random>)->ArgName("n")->Arg(3)->Arg(16);
 BENCHMARK(table_propagation<Random>)->ArgName("n")->Arg(3)->Arg(16);

@@ -13,7 +13,7 @@ namespace {
 
 std::size_t size(const benchmark::State& state) { return static_cast<std::size_t>(state.range(0)); }
 
-/// One item is one outcome, or one number of the relation that is inverted.
+/// One item is one outcome.
 template <Uncertainty Kind>
 void update_distribution(benchmark::State& state) {
   const Variable<Kind> x{"x", size(state)};
@@ -36,22 +36,11 @@ void update_belief(benchmark::State& state) {
   beside.report(state.range(0));
 }
 
-template <Uncertainty Kind>
-void invert_relation(benchmark::State& state) {
-  const auto relation = bench::transition<Kind>(size(state), 1);
-  const auto prior = uninformative(relation.from());
-  for (auto _ : state) benchmark::DoNotOptimize(invert(relation, prior));
-  state.SetItemsProcessed(state.iterations() * state.range(0) * state.range(0));
-}
-
 BENCHMARK(update_distribution<Random>)->RangeMultiplier(8)->Range(2, 1 << 16);
 BENCHMARK(update_distribution<Fuzzy>)->RangeMultiplier(8)->Range(2, 1 << 16);
 BENCHMARK(update_distribution<Ordinal>)->RangeMultiplier(8)->Range(2, 1 << 16);
 BENCHMARK(update_belief<Random>)->RangeMultiplier(8)->Range(2, 1 << 16);
 BENCHMARK(update_belief<Fuzzy>)->RangeMultiplier(8)->Range(2, 1 << 16);
-BENCHMARK(invert_relation<Random>)->RangeMultiplier(4)->Range(2, 512);
-BENCHMARK(invert_relation<Fuzzy>)->RangeMultiplier(4)->Range(2, 512);
-BENCHMARK(invert_relation<Ordinal>)->RangeMultiplier(4)->Range(2, 512);
 
 }  // namespace
 }  // namespace sigmax
