@@ -6,9 +6,11 @@
 /// const, copies share only what never changes, and no verb keeps a state of its own.
 
 #include <sigmax/core/algebra.hpp>
+#include <sigmax/core/assignment.hpp>
 #include <sigmax/core/belief.hpp>
 #include <sigmax/core/chain.hpp>
 #include <sigmax/core/check.hpp>
+#include <sigmax/core/choices.hpp>
 #include <sigmax/core/compose.hpp>
 #include <sigmax/core/condition.hpp>
 #include <sigmax/core/distribution.hpp>
@@ -17,6 +19,7 @@
 #include <sigmax/core/induced.hpp>
 #include <sigmax/core/likelihood.hpp>
 #include <sigmax/core/logarithm.hpp>
+#include <sigmax/core/matching.hpp>
 #include <sigmax/core/mean_interval.hpp>
 #include <sigmax/core/measure.hpp>
 #include <sigmax/core/network.hpp>
