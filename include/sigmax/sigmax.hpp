@@ -23,6 +23,7 @@
 #include <sigmax/estimation/fixed_step_motion.hpp>
 #include <sigmax/estimation/gaussian.hpp>
 #include <sigmax/estimation/gaussian_possibility.hpp>
+#include <sigmax/estimation/gospa.hpp>
 #include <sigmax/estimation/grid.hpp>
 #include <sigmax/estimation/grid_filter.hpp>
 #include <sigmax/estimation/grid_transition.hpp>
@@ -47,6 +48,7 @@
 #include <sigmax/estimation/sensor_ref.hpp>
 #include <sigmax/estimation/sensors.hpp>
 #include <sigmax/estimation/start.hpp>
+#include <sigmax/estimation/trajectory_gospa.hpp>
 #include <sigmax/estimation/unscented.hpp>
 #include <sigmax/estimation/view.hpp>
 #include <sigmax/estimation/white_noise.hpp>
