@@ -1,46 +1,18 @@
 #include <sigmax/hybrid/any_target.hpp>
 
 #include <algorithm>
-#include <numbers>
 #include <stdexcept>
 #include <string>
 #include <utility>
 #include <variant>
 
-#include <sigmax/estimation/doppler_sensor.hpp>
 #include <sigmax/estimation/start.hpp>
-#include <sigmax/hybrid/history_filter.hpp>
-#include <sigmax/hybrid/interacting_multiple_model.hpp>
-#include <sigmax/hybrid/mode_transition.hpp>
-#include <sigmax/hybrid/motion_choice.hpp>
-#include <sigmax/hybrid/second_order_multiple_model.hpp>
 #include <sigmax/hybrid/track_manager.hpp>
+
+#include "chosen.hpp"
 
 namespace sigmax {
 namespace {
-
-template <ScalableUncertainty Kind>
-ModeTransition<Kind> chosen_transition(const TargetChoice& choice) {
-  const Variable<Kind> mode{"mode", choice.models};
-  if (choice.scheme == Scheme::independent) return identity(mode);
-  if (!choice.sojourn_s.empty()) return TimedTransition<Kind>(mode, rates_of_sojourns(choice.sojourn_s));
-  return Relation<Kind, Kind>{mode, mode, choice.transition};
-}
-
-template <ScalableUncertainty Kind>
-Interaction<Kind> chosen_interaction(const TargetChoice& choice) {
-  Interaction<Kind> interaction;
-  interaction.augmentation = choice.augmentation;
-  interaction.entry = choice.entry;
-  interaction.output_tie = choice.output_tie;
-  interaction.mixed_start = choice.scheme == Scheme::common_start ? MixedStart::common : MixedStart::of_each_mode;
-  interaction.likelihood = choice.likelihood;
-  if constexpr (std::is_same_v<Kind, Fuzzy>)
-    interaction.collapse = {choice.mixed_covariance, choice.mixing_tie};
-  else
-    interaction.collapse = {choice.imm_mixing, choice.output_spread};
-  return interaction;
-}
 
 /// The start rule of a choice: an estimate for each model, or nothing as long as it wants more detections.
 class ChosenStart {
@@ -96,23 +68,13 @@ class ChosenStart {
     return leading(bearings.back().time, wide, narrow);
   }
 
-  /// Each model has the leading components of the one that is wide, if it needs them all, or else of the narrow one;
-  /// and behind them the rate of turn, which no start tells.
+  /// Each model has the leading components of the one that is wide, if it needs them all, or else of the narrow one.
   StartAt<Estimates> leading(double time, const EstimateAt<double>& wide, const EstimateAt<double>& narrow) const {
-    const double sigma_turn = choice_.start_sigma_turn_deg_s * std::numbers::pi / 180.0;
-    StartAt<Estimates> start{time, nowhere_};
-    for (std::size_t j = 0; j < nowhere_.size(); ++j) {
-      const KnownMotion& motion = choice_.motions[j].known();
-      const int n = motion.derivatives * choice_.axes;
-      const auto& from = n == wide.size() ? wide : narrow;
-      auto own = start.estimates[j];
-      own.mean.setZero();
-      own.covariance.setZero();
-      own.mean.head(n) = from.mean.head(n);
-      own.covariance.topLeftCorner(n, n) = from.covariance.topLeftCorner(n, n);
-      if (!motion.linear) own.covariance(n, n) = sigma_turn * sigma_turn;
-    }
-    return start;
+    return {time, detail::estimates_from(choice_, nowhere_, [&](int n, EstimateAt<double>& own) {
+              const auto& from = n == wide.size() ? wide : narrow;
+              own.mean.head(n) = from.mean.head(n);
+              own.covariance.topLeftCorner(n, n) = from.covariance.topLeftCorner(n, n);
+            })};
   }
 
   /// A given start without a time waits for the second detection: it is one step before the first.
@@ -136,85 +98,23 @@ class ChosenStart {
   Estimates nowhere_;
 };
 
-/// The filter of a choice; what it holds before it starts means nothing.
-template <ScalableUncertainty Kind>
-std::unique_ptr<MultipleModelFilter<Kind>> chosen_filter(const TargetChoice& choice,
-                                                         const std::vector<AnyModel>& models,
-                                                         const Estimates& nowhere) {
-  const auto interaction = chosen_interaction<Kind>(choice);
-  const auto transition = chosen_transition<Kind>(choice);
-  if (choice.scheme == Scheme::histories) {
-    const HistoryRules<Kind> rules{.histories = choice.histories, .cut = choice.cut, .tempering = choice.tempering};
-    return std::make_unique<HistoriesOfModes<Kind>>(models, transition, nowhere, rules, interaction);
-  }
-  if (choice.scheme == Scheme::second_order)
-    return std::make_unique<SecondOrderFilter<Kind>>(models, transition, nowhere, interaction);
-  return std::make_unique<InteractingFilter<Kind>>(models, transition, nowhere, interaction);
-}
-
 template <ScalableUncertainty Kind>
 struct Followed {
   std::unique_ptr<MultipleModelFilter<Kind>> filter;
   detail::TrackManager<Kind> life;
 
   Followed(const TargetChoice& choice, const std::vector<AnyModel>& models, const ChosenStart& start)
-      : filter(chosen_filter<Kind>(choice, models, start.nowhere())), life(*filter, start, choice.rules) {}
+      : filter(detail::chosen_filter<Kind>(choice, models, start.nowhere())), life(*filter, start, choice.rules) {}
   Followed(const Followed& other) : filter(other.filter->clone()), life(other.life) {}
 };
 
 using AnyFollowed = std::variant<Followed<Random>, Followed<Fuzzy>>;
 
 AnyFollowed followed(const TargetChoice& choice) {
-  std::vector<AnyModel> models;
-  for (const auto& motion : choice.motions) models.push_back(known_model(motion, choice.axes, choice.member));
+  const std::vector<AnyModel> models = detail::chosen_models(choice);
   const ChosenStart start(choice, models);
   if (choice.fuzzy) return AnyFollowed(std::in_place_index<1>, choice, models, start);
   return AnyFollowed(std::in_place_index<0>, choice, models, start);
-}
-
-/// The sensor of a detection that has one; a branch here is all that a new one needs beside its name in AnyDetection.
-/// Throws std::invalid_argument if the numbers of the detection do not fit it.
-AnySensor chosen_sensor(const AnyDetection& detection, int axes) {
-  using enum AnyDetection::Sensor;
-  if (detection.size < 1 || detection.size > max_measurement_size)
-    throw std::invalid_argument("a detection has " + std::to_string(detection.size) +
-                                " measured quantities; expected 1 to 6");
-  if (detection.sensor == components)
-    return ComponentSensor<max_measurement_size>(
-        std::span(detection.places).first(static_cast<std::size_t>(detection.size)), axes);
-  if (axes == 1 && detection.sensor != position)
-    throw std::invalid_argument("along one axis a detection is a position or components; a radar needs a plane");
-  const Vector<3> origin(detection.origin.data());
-  if (detection.sensor == polar && axes == 3 && detection.size == 2) return SlantSensor(origin);
-  const int expected = detection.sensor == bearing ? 1 : detection.sensor == doppler ? axes + 1 : axes;
-  if (detection.size != expected)
-    throw std::invalid_argument("a detection has " + std::to_string(detection.size) +
-                                " measured quantities; expected " + std::to_string(expected));
-  const Vector<2> below(detection.origin.data());
-  if (detection.sensor == bearing) return BearingSensor(below);
-  if (detection.sensor == polar && axes == 2) return PolarSensor<2>(below);
-  if (detection.sensor == polar) return PolarSensor<3>(origin);
-  if (detection.sensor == doppler && axes == 2) return DopplerSensor<2>(below);
-  if (detection.sensor == doppler) return DopplerSensor<3>(origin);
-  return detail::position_sensor(axes);
-}
-
-Detection chosen_detection(const AnyDetection& detection, int axes) {
-  if (detection.sensor == AnyDetection::Sensor::none) return Detection(detection.time, detection.tag);
-  return Detection(detection.time, detail::ConstView{detection.z.data(), detection.covariance.data(), detection.size},
-                   chosen_sensor(detection, axes), detection.tag);
-}
-
-const TargetChoice& checked(const TargetChoice& choice) {
-  if (choice.axes < 1 || choice.axes > 3)
-    throw std::invalid_argument("a target along " + std::to_string(choice.axes) + " axes; expected 1, 2 or 3");
-  if (choice.motions.empty() || choice.motions.size() != choice.models.size())
-    throw std::invalid_argument("a target with " + std::to_string(choice.motions.size()) + " motions and " +
-                                std::to_string(choice.models.size()) + " names of them");
-  if (choice.start == StartRule::given &&
-      (choice.start_mean.size() != 9 || choice.start_covariance_diagonal.size() != 9))
-    throw std::invalid_argument("a given start has nine numbers and nine variances: x, y, z, vx, vy, vz, ax, ay, az");
-  return choice;
 }
 
 }  // namespace
@@ -237,25 +137,9 @@ struct AnyTarget::Chosen {
   const detail::Life& now() {
     return visit([](const auto& target) -> const auto& { return target.life.now(); });
   }
-
-  /// Writes the output of a state, the filter's own or another.
-  template <class Filter, class State>
-  void tell(const Filter& filter, const State& state, TargetPoint& result) const {
-    const auto n = static_cast<std::size_t>(filter.component_count());
-    result.mean.resize(n);
-    result.covariance.resize(n * n);
-    const detail::View output{result.mean.data(), result.covariance.data(), filter.component_count()};
-    if (most_likely_output)
-      filter.most_likely_output(state, output);
-    else
-      filter.output(state, output);
-    result.weights.resize(state.belief.size());
-    for (std::size_t j = 0; j < result.weights.size(); ++j) result.weights[j] = state.belief[j];
-    result.most_likely_mode = state.most_likely_mode;
-  }
 };
 
-AnyTarget::AnyTarget(const TargetChoice& choice) : chosen_(std::make_unique<Chosen>(checked(choice))) {}
+AnyTarget::AnyTarget(const TargetChoice& choice) : chosen_(std::make_unique<Chosen>(detail::checked(choice))) {}
 AnyTarget::AnyTarget(const AnyTarget& other) : chosen_(std::make_unique<Chosen>(*other.chosen_)) {}
 AnyTarget::AnyTarget(AnyTarget&&) noexcept = default;
 AnyTarget& AnyTarget::operator=(AnyTarget other) noexcept {
@@ -265,7 +149,7 @@ AnyTarget& AnyTarget::operator=(AnyTarget other) noexcept {
 AnyTarget::~AnyTarget() = default;
 
 Verdict AnyTarget::take(const AnyDetection& detection, const Stepped& stepped) {
-  const Detection own = chosen_detection(detection, chosen_->axes);
+  const Detection own = detail::chosen_detection(detection, chosen_->axes);
   return chosen_->visit([&](auto& target) {
     return target.life.take(*target.filter, own, [&](const Detection& taken, bool is_start) {
       chosen_->compared = !is_start && taken.seen();
@@ -310,7 +194,7 @@ void AnyTarget::output(TargetPoint& result) const {
     result.nis = filter.accepted() ? std::optional(filter.nis()) : std::nullopt;
     result.log_evidence = chosen_->compared ? std::optional(filter.log_evidence()) : std::nullopt;
     result.log_score = chosen_->compared ? std::optional(filter.log_score()) : std::nullopt;
-    chosen_->tell(filter, filter.state(), result);
+    detail::tell(filter, filter.state(), chosen_->most_likely_output, result);
   });
 }
 
@@ -322,7 +206,7 @@ void AnyTarget::smoothed(const std::function<void(const TargetPoint&)>& visit) c
       point.tag = kept.tag;
       point.is_start = kept.is_start;
       point.nis = kept.nis;
-      chosen_->tell(*target.filter, state, point);
+      detail::tell(*target.filter, state, chosen_->most_likely_output, point);
       visit(point);
     });
   });

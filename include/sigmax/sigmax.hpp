@@ -62,6 +62,7 @@
 #include <sigmax/hybrid/detection.hpp>
 #include <sigmax/hybrid/envelope.hpp>
 #include <sigmax/hybrid/estimates.hpp>
+#include <sigmax/hybrid/existence.hpp>
 #include <sigmax/hybrid/fast_path.hpp>
 #include <sigmax/hybrid/filter_bank.hpp>
 #include <sigmax/hybrid/fit.hpp>
@@ -78,6 +79,7 @@
 #include <sigmax/hybrid/mixture.hpp>
 #include <sigmax/hybrid/mode_transition.hpp>
 #include <sigmax/hybrid/motion_choice.hpp>
+#include <sigmax/hybrid/multi_target_tracker.hpp>
 #include <sigmax/hybrid/multiple_model_filter.hpp>
 #include <sigmax/hybrid/second_order_multiple_model.hpp>
 #include <sigmax/hybrid/sound.hpp>
