@@ -103,7 +103,8 @@ void check_targets(const Records& records, Findings& findings) {
                                     "another one was; track does not associate them: {}",
                                     returns, rows.size(),
                                     records.recording.has_tracks() ? "give each target an identifier of its own"
-                                                                   : "tell them apart with --track-id COLUMN")});
+                                                                   : fmt::format("himm_demo associate {} does",
+                                                                                 in_shell(records.recording.file())))});
   });
 }
 

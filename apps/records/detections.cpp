@@ -40,6 +40,7 @@ void see_by_radar(Row& row, const std::optional<Position>& position, int axes, c
   }
   const auto& sigma = *radar.sigma;
   const Position at = radar.place();
+  const auto size = static_cast<std::size_t>(axes);
   const Polar seen = measured(to_polar(sigmax::Vector<3>(position->data()) - sigmax::Vector<3>(at.data())),
                               {sigma[0], degrees(sigma[1]), degrees(sigma[2])}, random);
   if (!(seen.range > 0.0))
@@ -47,13 +48,13 @@ void see_by_radar(Row& row, const std::optional<Position>& position, int axes, c
         "{}:{}: the simulated radar: found a range of {} m, expected a positive one; put the radar farther from the "
         "track with --radar-at=E,N,U",
         file, row.line, shortest(seen.range));
+  const std::array z = {seen.range, seen.azimuth.radians(), seen.elevation.radians()}, unknown = {nan, nan, nan};
   row.truth = position;
-  row.detection =
-      AnyDetection::polar(row.detection.time, std::array{seen.range, seen.azimuth.radians(), seen.elevation.radians()},
-                          std::array{nan, nan, nan}, at);
+  row.detection = AnyDetection::polar(row.detection.time, std::span(z).first(size), std::span(unknown).first(size), at);
 }
 
-void add_recording(Subcommand app, RecordingOptions& recording, RadarOptions& radar) {
+void add_recording(Subcommand app, RecordingOptions& recording, RadarOptions& radar, const std::string& tracks,
+                   const std::string& meaning) {
   app.list("--columns", recording.columns, "Headers that stand for these names, as time_s=t,x_m=east")
       .type("NAME=HEADER,…");
   app.option("--time-format", recording.time_format,
@@ -63,7 +64,7 @@ void add_recording(Subcommand app, RecordingOptions& recording, RadarOptions& ra
   app.option("--select", recording.select, "Only rows that have this value; may be repeated")
       .type("COLUMN=VALUE")
       .repeated();
-  app.option("--track-id", recording.track_id, "The column that identifies tracks: a filter each").type("COLUMN");
+  app.option(tracks, recording.track_id, meaning).type("COLUMN");
   app.choice(
          "--on-bad-time", {"error", "skip"}, [&](int what) { recording.skip_bad_times = what == 1; },
          "What to do where a time repeats or goes back [error]")
@@ -86,7 +87,7 @@ void refuse_radar(const RadarOptions& radar, const RecordingReader& recording) {
   if (!radar.sigma) return;
   if (recording.polar()) throw UsageError("--radar measures positions, but " + file + " holds a radar's measurements");
   if (recording.has_truth()) throw UsageError("--radar takes positions as the truth, but " + file + " has true_x_m");
-  if (recording.axes() != 3) throw UsageError("--radar needs three axes, but " + file + " has fewer");
+  if (recording.axes() == 1) throw UsageError("--radar needs two axes or three, but " + file + " has one");
 }
 
 }  // namespace sigmax::apps

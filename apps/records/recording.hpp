@@ -28,13 +28,14 @@ struct RecordingOptions {
   bool velocity = false;                        ///< whether velocities count, or a speed and a course
   bool range_rate = false;                      ///< whether a radar's range rates count
   bool sensor_places = false;                   ///< whether the settings say where on the Earth sensors stand
-  bool simulated = false;                       ///< whether a simulated radar measures: so no velocity counts
+  bool mixed = false;      ///< whether rows of several targets are mixed: times may repeat, and tracks may be empty
+  bool simulated = false;  ///< whether a simulated radar measures: so no velocity counts
 };
 
 /// One row of a recording.
 struct Row {
   std::size_t line = 0;
-  std::string track;     ///< empty without a column that tells tracks apart
+  std::string track{};   ///< empty without a column that tells tracks apart
   std::string sensor{};  ///< empty without a column `sensor`
   /// What was measured, and when: a position and a velocity as components, a radar's measurement or a bearing. In a
   /// geodetic recording the position is latitude and longitude in degrees and the altitude in m. A variance that the
@@ -164,6 +165,8 @@ class RecordingReader {
   std::string why_unused(std::size_t quantity) const;
   std::string unused() const;
 
+  /// By what its times must increase: its track, unless all are mixed.
+  std::string timed(const Row& row) const { return options_.mixed ? "" : row.track; }
   bool take_time(Row& row);
   double on_its_day(const Row& row, double time_of_day);
   bool refused_time(const Row& row, double time);
@@ -231,8 +234,10 @@ void see_by_radar(Row& row, const std::optional<Position>& position, int axes, c
                   RandomStream& random, const std::string& file);
 
 /// The options that say what a recording's columns mean, and which of its rows count; and --radar and --radar-at. All
-/// outlive the app.
-void add_recording(Subcommand app, RecordingOptions& recording, RadarOptions& radar);
+/// outlive the app. The option for the column of tracks may have another name and meaning.
+void add_recording(Subcommand app, RecordingOptions& recording, RadarOptions& radar,
+                   const std::string& tracks = "--track-id",
+                   const std::string& meaning = "The column that identifies tracks: a filter each");
 
 /// Throws UsageError where a radar cannot measure what a recording holds.
 void refuse_radar(const RadarOptions& radar, const RecordingReader& recording);

@@ -26,7 +26,7 @@ bool RecordingReader::take_time(Row& row) {
   row.line = row_.line();
   row.track = track_ ? trimmed(row_[*track_]) : std::string_view{};
   row.sensor = sensor_ ? trimmed(row_[*sensor_]) : std::string_view{};
-  if (track_ && row.track.empty())
+  if (track_ && row.track.empty() && !options_.mixed)
     throw row_.error(*track_, "what tells its track from others",
                      rows_ == 0 ? "fill the cell, or drop the line, if it holds units" : "fill the cell");
   bool of_day = false;
@@ -53,7 +53,7 @@ bool RecordingReader::take_time(Row& row) {
   const double time = of_day ? on_its_day(row, *found) : *found;
   row.detection.time = time;
   const bool refused = refused_time(row, time);
-  Last& last = last_.find(row.track)->second;
+  Last& last = last_.find(timed(row))->second;
   if (!refused) {
     last.of_day = of_day;
     if (of_day) latest_of_day_ = time;
@@ -69,7 +69,9 @@ bool RecordingReader::take_time(Row& row) {
                   "rounded, write them in full; else drop repeated rows, or give --on-bad-time skip",
                   track_ ? "" : ", and where several targets do, give the column that tells them apart by --track-id")
             : fmt::format("sort the rows by time{}, or give --on-bad-time skip",
-                          track_ ? "" : "; or where there are several targets, tell them apart by --track-id COLUMN"));
+                          track_ || options_.mixed
+                              ? ""
+                              : "; or where there are several targets, tell them apart by --track-id COLUMN"));
   ++skipped_;
   return false;
 }
@@ -78,7 +80,7 @@ bool RecordingReader::take_time(Row& row) {
 /// next day. Where it would rise by more than half a day, it is of the day before: a late row of a track, or the first
 /// row of one that begins.
 double RecordingReader::on_its_day(const Row& row, double time_of_day) {
-  const auto last = last_.find(row.track);
+  const auto last = last_.find(timed(row));
   const bool first = last == last_.end();
   if (first ? !latest_of_day_ : !last->second.of_day) return time_of_day;
   const double before = first ? *latest_of_day_ : last->second.time;
@@ -91,12 +93,13 @@ double RecordingReader::on_its_day(const Row& row, double time_of_day) {
 
 /// Whether the time is not after that of the track's row before; several sensors may measure at one time.
 bool RecordingReader::refused_time(const Row& row, double time) {
-  const auto [found, first] = last_.try_emplace(row.track);
+  const auto [found, first] = last_.try_emplace(timed(row));
   Last& last = found->second;
   if (first || time > last.time) {
     last = {time, {row.sensor}};
     return false;
   }
+  if (options_.mixed) return !(time == last.time);
   const bool has_reported = std::ranges::find(last.sensors, row.sensor) != last.sensors.end();
   if (!(time == last.time) || has_reported) return true;
   last.sensors.push_back(row.sensor);

@@ -38,6 +38,13 @@ class RandomStream {
   /// One of `size` outcomes, all equally probable.
   std::size_t index(std::size_t size);
 
+  /// A number of events of this mean rate, up to 500: the Poisson distribution by Knuth's product of uniforms.
+  std::size_t count(double mean) {
+    std::size_t events = 0;
+    for (double product = uniform(); product > std::exp(-mean); product *= uniform()) ++events;
+    return events;
+  }
+
   /// An outcome with these probabilities; they may miss a sum of one by rounding.
   std::size_t draw(std::span<const double> probabilities);
 

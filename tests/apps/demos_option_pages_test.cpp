@@ -23,7 +23,7 @@ TEST(OptionPages, EverySubcommandHasTwoExamplesThatCanBeCopied) {
     const std::string name = program.filename();
     const bool tracks = name == "himm_demo";
     for (const auto& subcommand :
-         words(tracks ? "simulate reproduce sweep track tune" : "esm train classify evaluate")) {
+         words(tracks ? "simulate reproduce sweep track associate tune" : "esm train classify evaluate")) {
       const std::string help = program::succeeds(program, {subcommand, "--help"}).output;
       EXPECT_TRUE(std::regex_search(help, examples_of(name))) << help;
       for (const std::string& line : lines_of(help, any_width)) EXPECT_LE(display_width(line), 80U) << line;

@@ -291,7 +291,6 @@ TEST_F(Tune, RefusesWhatCannotBeAndWritesNothing) {
                                          {{file, "--keep", "noise"}, 2, "noise"},
                                          {{file, "--set", "filters=himm_possibility"}, 3, "himm_possibility"},
                                          {{file, "--set", "sigma_w=-1"}, 3, "sigma_w"},
-                                         {{file, "--radar", "10,1,1"}, 2, "three axes"},
                                          {{"-"}, 2, "standard input"}};
   for (const auto& refusal : refusals) {
     auto arguments = refusal.arguments;

@@ -377,8 +377,7 @@ std::string as_toml(const std::vector<FilterSettings>& filters) {
 }
 
 std::vector<FilterSettings> filters_for(RecordingOptions& recording, const FilterOptions& options,
-                                        const std::optional<std::array<double, 3>>& radar) {
-  FilterDefaults defaults;
+                                        const std::optional<std::array<double, 3>>& radar, FilterDefaults defaults) {
   if (radar) defaults.filter.accuracy.radar = {(*radar)[0], (*radar)[1] * degree, (*radar)[2] * degree};
   const Settings settings = Settings::read(options.config, options.sets);
   auto filters = read_filters(settings, defaults);

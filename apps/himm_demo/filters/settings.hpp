@@ -169,7 +169,8 @@ void add_filter_options(Subcommand app, FilterOptions& options);
 /// know the accuracy of, velocities and range rates, is asked of the recording. Throws InputError for what cannot be,
 /// and for keys that nobody knows.
 std::vector<FilterSettings> filters_for(RecordingOptions& recording, const FilterOptions& options,
-                                        const std::optional<std::array<double, 3>>& radar);
+                                        const std::optional<std::array<double, 3>>& radar,
+                                        FilterDefaults defaults = {});
 
 /// Filters without a given start start at 0 with no knowledge of how the target moves, once: for recordings that tell
 /// no position.

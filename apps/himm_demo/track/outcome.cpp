@@ -118,7 +118,7 @@ void TrackOutcome::refuse_nothing(const RecordingReader& recording, const Record
 }
 
 EstimatesFile::EstimatesFile(ResultFiles* files, const std::vector<FilterSettings>& filters,
-                             const RecordingReader& recording) {
+                             const RecordingReader& recording, bool associated) {
   if (!files) return;
   const auto axes = static_cast<std::size_t>(recording.axes());
   std::vector<std::string> keys;
@@ -127,7 +127,8 @@ EstimatesFile::EstimatesFile(ResultFiles* files, const std::vector<FilterSetting
     cells_.push_back(std::move(cell));
   };
   add("time_s", [](auto& point, auto&) { return point.time; });
-  if (recording.has_tracks()) add("track", [this](auto&, auto&) { return track_; });
+  if (associated || recording.has_tracks()) add("track", [this](auto&, auto&) { return track_; });
+  if (associated) add("existence", [this](auto&, auto&) { return existence_; });
   add("filter", [](auto&, auto& filter) { return filter.name; });
   // What there is of the mean, and of its standard deviations, along each axis.
   constexpr std::array formats = {"{}_m", "v{}_mps", "a{}_mps2", "sigma_{}_m", "sigma_v{}_mps"};
@@ -158,7 +159,7 @@ EstimatesFile::EstimatesFile(ResultFiles* files, const std::vector<FilterSetting
     add("longitude_deg", [](auto& point, auto&) { return point.place.longitude_deg; });
     add("altitude_m", [=](auto& point, auto&) { return axes == 3 ? Cell(point.place.altitude_m) : Cell(); });
   }
-  file_.emplace(*files, "estimates.csv", keys);
+  file_.emplace(*files, associated ? "tracks.csv" : "estimates.csv", keys);
 }
 
 }  // namespace sigmax::apps

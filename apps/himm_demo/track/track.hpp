@@ -155,21 +155,24 @@ std::string verdict_of(const TrackOptions& options, const RecordingReader& recor
                        const std::vector<FilterSettings>& filters, const TrackOutcome& outcome,
                        const TrackOutcome* gated);
 
-/// estimates.csv: a row for each filter and step.
+/// estimates.csv: a row for each filter and step; or tracks.csv, of tracks that were associated, with their existence.
 class EstimatesFile {
  public:
   /// Without files it keeps nothing.
-  EstimatesFile(ResultFiles* files, const std::vector<FilterSettings>& filters, const RecordingReader& recording);
+  EstimatesFile(ResultFiles* files, const std::vector<FilterSettings>& filters, const RecordingReader& recording,
+                bool associated = false);
 
   explicit operator bool() const { return file_ && *file_; }
-  void write(const std::string& track, const FilterSettings& filter, const EarthPoint& point) {
+  void write(const std::string& track, const FilterSettings& filter, const EarthPoint& point, double existence = nan) {
     track_ = track;
+    existence_ = existence;
     if (*this) file_->write(each(cells_, [&](const auto& cell) { return cell(point, filter); }));
   }
 
  private:
   std::vector<std::function<Cell(const EarthPoint&, const FilterSettings&)>> cells_;
   std::string track_;
+  double existence_ = nan;
   std::optional<RowFile> file_;
 };
 

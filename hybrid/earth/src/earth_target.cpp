@@ -76,6 +76,13 @@ AnyDetection seen_from(const Geodetic& sensor, AnyDetection detection, const Loc
   return detection;
 }
 
+EarthPoint on_earth(TargetPoint point, const LocalFrame& frame, int axes) {
+  const Position position = position_of(point, axes);
+  turn(local_axes(frame, position, axes).data(), {}, axes, point);
+  std::copy_n(position.begin(), axes, point.mean.begin());
+  return {std::move(point), frame.to_geodetic(position)};
+}
+
 EarthTarget::EarthTarget(const TargetChoice& choice)
     : AnyTarget(choice),
       axes_(choice.axes),
@@ -173,12 +180,11 @@ void EarthTarget::smoothed(const std::function<void(const TargetPoint&)>& visit)
 
 EarthPoint EarthTarget::on_earth(TargetPoint point, bool is_predicted) const {
   const LocalFrame& frame = segment(point.tag)->frame;
-  const Position position = position_of(point, axes_);
+  const double up = position_of(point, axes_)[2];
   const bool about_the_earth = is_predicted && moves_ && axes_ == 3;
-  const LocalFrame map = about_the_earth ? LocalFrame(frame.origin(), 2) : frame;
-  turn(local_axes(map, position, axes_).data(), {}, axes_, point);
-  EarthPoint result{std::move(point), map.to_geodetic(position)};
-  if (about_the_earth) result.place.altitude_m = frame.origin().altitude_m + position[2];
+  EarthPoint result =
+      sigmax::on_earth(std::move(point), about_the_earth ? LocalFrame(frame.origin(), 2) : frame, axes_);
+  if (about_the_earth) result.place.altitude_m = frame.origin().altitude_m + up;
   std::copy_n(anchor_->to_local(result.place).begin(), axes_, result.mean.begin());
   return result;
 }

@@ -11,6 +11,9 @@ struct EarthPoint : TargetPoint {
   Geodetic place;
 };
 
+/// A point in a frame, with axes along east, north and up at the frame's origin, on the Earth.
+EarthPoint on_earth(TargetPoint point, const LocalFrame& frame, int axes);
+
 /// An AnyTarget on the Earth, along two or three axes. It is followed in a local frame that moves along with it, so
 /// that its axes are east, north and up wherever it goes.
 ///

@@ -1,0 +1,183 @@
+#pragma once
+
+#include <deque>
+
+#include <sigmax/hybrid/multi_target_tracker.hpp>
+
+#include "himm_demo/filters/settings.hpp"
+#include "records/recording.hpp"
+#include "report/result.hpp"
+#include "shell/random.hpp"
+
+namespace sigmax::apps {
+
+/// The kinds of association by their names in the field, in the order of the table in docs/many_targets.md.
+struct NamedAssociation {
+  const char* name;
+  AssociationChoice choice;
+};
+inline constexpr std::array<NamedAssociation, 4> associations = {
+    {{"jpda", {false, false}}, {"jpda_star", {false, true}}, {"gnn", {true, true}}, {"fuzzy_random", {true, false}}}};
+
+/// The options of `himm_demo associate`.
+struct AssociateOptions {
+  RecordingOptions recording;  ///< whose tracks are the labels
+  RadarOptions radar;
+  FilterOptions filters;
+  std::size_t association = 1;    ///< its place among them
+  MultiTargetRules rules;         ///< whose gate is that of the settings
+  std::optional<double> scan_s;   ///< how long a scan takes
+  std::optional<double> clutter;  ///< false detections a scan of simulated radars, on average
+  int radars = 0;                 ///< of a situation; 0: its positions are measured
+  std::optional<double> cutoff;   ///< of GOSPA, in m
+  std::uint64_t seed = 1;
+  std::string situation;  ///< that is simulated, or empty
+  std::optional<int> runs;
+  int threads = 0;  ///< 0: as many as the machine has
+  OutputOptions output;
+};
+
+/// Rows of one scan: what one sensor saw while it looked at every target once. Their detections are as the filter takes
+/// them and have their places here as tags; their tracks are labels, which the filter does not see.
+using Scan = std::vector<Row>;
+
+/// The tracker that options and settings stand for.
+MultiTargetTracker tracker_for(const AssociateOptions& options, const FilterSettings& filter, int axes,
+                               const AssociationChoice& association);
+
+/// The confirmed tracks, predicted to the end of the last scan.
+std::vector<TrackedTarget> confirmed_of(const MultiTargetTracker& tracker);
+
+/// What settings of associate are by default: a radar's measurements stay in its own space, where clutter is uniform.
+FilterDefaults associate_defaults();
+
+/// The situations that can be simulated.
+std::vector<std::string> names_of_situations();
+
+/// `himm_demo associate --simulate`: writes a situation, or evaluates every association on many runs.
+void simulate_situation(AssociateOptions options);
+
+/// Where a target is, or was by a line of the recording, at one time.
+struct Known {
+  double time;
+  std::size_t line;
+  Position at;
+};
+
+/// On the straight line between two places that are known, in the order of times; nothing before the first and after
+/// the last.
+std::optional<Known> between(const std::vector<Known>& path, double time);
+
+/// Reads a recording scan by scan: by --scan, rows of equal times, or turns of a radar.
+class ScanReader {
+ public:
+  /// What it is made of must live as long.
+  ScanReader(const AssociateOptions& options, RecordingReader& recording, const FilterSettings& filter);
+
+  /// The next scan; false at the end. Throws InputError with file, line and column, and where nothing tells what a scan
+  /// is.
+  bool next(Scan& scan);
+
+  /// The frame of positions on the Earth.
+  const std::optional<LocalFrame>& frame() const { return places_.frame() ? places_.frame() : frame_; }
+
+  /// Sentences on what was read, and on what a scan is.
+  std::vector<std::string> notes() const;
+
+  std::size_t rows() const { return rows_; }
+
+ private:
+  bool read(Row& row);
+  bool fill(std::size_t rows);
+  void choose();
+  bool begins_scan(const Row& row);
+  double turned(const Row& row);
+  bool simulated(Scan& scan);
+  void read_truth();
+
+  const AssociateOptions& options_;
+  RecordingReader& recording_;
+  const FilterSettings& filter_;
+  int axes_ = recording_.axes();
+  SensorPlaces places_{filter_, recording_, options_.radar.place()};
+  std::optional<LocalFrame> frame_;
+  std::deque<Row> waiting_;
+  std::deque<Scan> scans_;  // of one window, by sensor
+  bool chosen_ = false;
+  double turn_ = 0.0;  // which way azimuths go: 1 or −1; 0 for equal times
+  double azimuth_ = nan, angle_ = 0.0, first_time_ = nan, time_ = nan;
+  std::size_t number_ = 0;  // of the window, or of the turn
+  std::size_t rows_ = 0, unplaced_ = 0;
+  // Of a simulated radar: where everybody was, and what it may take for a target.
+  std::map<std::string, std::vector<Known>> truth_;
+  RandomStream random_{options_.seed, 0};
+  double greatest_range_ = 0.0, least_elevation_ = 0.0, greatest_elevation_ = 0.0, last_time_ = -infinity;
+};
+
+/// How well tracks show the targets of a recording: RMS GOSPA over scans (α = 2, p = 2) and its parts, in m, whose
+/// squares add up to its square; and what concerns whole tracks.
+struct Score {
+  enum Figure : std::size_t {
+    gospa,
+    localisation,
+    missed,
+    false_targets,
+    switches,         ///< by trajectory GOSPA: a target that goes on with another track
+    false_tracks,     ///< no target's in most of their scans
+    time_to_confirm,  ///< s, the mean over targets that have a track, from their first detection on
+    untracked,        ///< targets that never have a track
+    targets
+  };
+  static constexpr std::size_t figures = 9;
+
+  double cutoff = nan;  ///< c in m
+  std::array<double, figures> values{};
+  double& operator[](Figure figure) { return values[figure]; }
+};
+
+/// A row of them; each cell is what a function makes of a figure.
+std::vector<Field> fields_of(const std::string& name, const std::function<Cell(Score::Figure)>& cell);
+
+/// Keeps where targets were and tracks are, scan by scan, for the score.
+class Scorer {
+ public:
+  explicit Scorer(int axes) : axes_(axes) {}
+
+  /// Takes a scan, whose rows with a label tell where that target was, by their truth or else by what was measured, and
+  /// the tracks that are shown, at `time`.
+  void add(double time, const Scan& scan, const std::vector<TrackedTarget>& shown);
+
+  /// By that cut-off; without it ten times the median standard deviation of a position.
+  Score score(std::optional<double> cutoff) const;
+
+ private:
+  using Point = std::vector<double>;
+  int axes_;
+  std::map<std::string, std::vector<Known>> targets_;
+  std::vector<std::pair<double, std::map<std::size_t, Point>>> scans_;  // their times and tracks
+  std::vector<double> sigmas_;
+};
+
+/// Collects what the page shows, in memory that does not grow with the scans.
+class AssociatePage {
+ public:
+  void add(double time, const Scan& scan, const std::vector<DetectionOwner>& owners,
+           const std::vector<TrackedTarget>& shown, int axes);
+  /// The plan, with unexplained detections, and existence over time.
+  void add_to(Report& page, bool geodetic) const;
+
+ private:
+  struct Point {
+    std::size_t scan;
+    Position at;
+    double existence = 1.0;
+  };
+  using Points = std::vector<Point>;
+
+  std::size_t scans_ = 0, every_ = 1, kept_ = 0;  // of so many scans the first is kept
+  std::vector<double> times_;                     // of the scans that are kept
+  std::map<std::size_t, Points> tracks_, seen_;   // seen by the number of the track, or 0
+  std::map<std::string, Points> truth_;
+};
+
+}  // namespace sigmax::apps

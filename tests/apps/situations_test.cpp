@@ -1,0 +1,98 @@
+#include "himm_demo/associate/situations.hpp"
+
+#include <sigmax/estimation/root_mean_square.hpp>
+
+#include "support/test.hpp"
+
+namespace situations_test {
+
+constexpr std::array situations = {Situation::crossing,    Situation::parallel, Situation::splitting,
+                                   Situation::manoeuvring, Situation::dense,    Situation::meeting};
+
+/// What depends on the seed: what is seen in a scan, and where everybody is.
+Rows seen(const Scene& scene, std::size_t scan) {
+  return each(scene.scans[scan], [](const Row& row) { return Numbers{row.detection.z[0], row.detection.z[1]}; });
+}
+std::vector<PointSet> truth(const Scene& scene) { return each(scene.truth, &Trajectory::positions); }
+
+TEST(Situations, DependOnTheSeedAlone) {
+  for (const Situation situation : situations) {
+    const Scene scene = simulate(situation, 7);
+    EXPECT_EQ(seen(scene, 30), seen(simulate(situation, 7), 30));
+    EXPECT_EQ(truth(scene), truth(simulate(situation, 7, {0.5, 3.0, 2})));
+    EXPECT_NE(truth(scene), truth(simulate(situation, 8)));
+  }
+}
+
+/// Errors in their standard deviations, shares of detections, and false detections, over 20 seeds.
+TEST(Situations, AreSeenAsToldForEachKindOfSensor) {
+  for (const Situation situation : situations)
+    for (const int radars : {0, 4}) {
+      RootMeanSquare errors;
+      double alive = 0.0, detected = 0.0, spurious = 0.0, expected = 0.0;
+      for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+        const Scene scene = simulate(situation, seed, {.radars = radars});
+        for (const auto& [start, path] : scene.truth) alive += static_cast<double>(path.size());
+        for (std::size_t k = 0; k < scene.scans.size(); ++k) {
+          expected += scene.false_detections;
+          std::size_t tag = 0;
+          for (const Row& row : scene.scans[k]) {
+            const AnyDetection& detection = row.detection;
+            EXPECT_EQ(detection.tag, tag++);
+            if (row.measured()) ++(row.truth ? detected : spurious);
+            if (!row.truth) continue;
+            const auto& [start, path] = scene.truth[std::stoul(row.track) - 1];
+            EXPECT_EQ((Numbers{(*row.truth)[0], (*row.truth)[1]}), path[k - start]);
+            if (!row.measured()) continue;
+            const double dx = (*row.truth)[0] - detection.origin[0], dy = (*row.truth)[1] - detection.origin[1];
+            const double first = radars == 0 ? dx : std::hypot(dx, dy), second = radars == 0 ? dy : std::atan2(dy, dx);
+            errors.add((detection.z[0] - first) / std::sqrt(detection.variance(0)));
+            errors.add((detection.z[1] - second) / std::sqrt(detection.variance(1)));
+          }
+        }
+      }
+      EXPECT_CLOSE(errors.value(), 1.0, 0.05);
+      EXPECT_CLOSE(detected / alive, 0.9, 0.02);
+      EXPECT_CLOSE(spurious / expected, 1.0, 0.05);
+    }
+}
+
+/// The least distance of two targets at one scan, and when.
+std::pair<double, std::size_t> least_distance(const Scene& scene, std::size_t i, std::size_t j) {
+  std::pair<double, std::size_t> result{1e9, 0};
+  const auto &x = scene.truth[i], &y = scene.truth[j];
+  for (std::size_t k = std::max(x.start, y.start); k < scene.scans.size(); ++k)
+    if (k - x.start < x.positions.size() && k - y.start < y.positions.size()) {
+      const auto &p = x.positions[k - x.start], &q = y.positions[k - y.start];
+      result = std::min(result, {std::hypot(p[0] - q[0], p[1] - q[1]), k});
+    }
+  return result;
+}
+
+TEST(Situations, AreWhatTheirNamesSay) {
+  RootMeanSquare differences;  // of second order: √(2 q T³/3), before the middle and after
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    EXPECT_EQ(least_distance(simulate(Situation::crossing, seed), 0, 1), (std::pair<double, std::size_t>{0.0, 30}));
+    EXPECT_LT(least_distance(simulate(Situation::parallel, seed), 0, 1).first, 150.0);
+    EXPECT_EQ(least_distance(simulate(Situation::splitting, seed), 0, 1), (std::pair<double, std::size_t>{0.0, 20}));
+    EXPECT_LT(least_distance(simulate(Situation::manoeuvring, seed), 0, 1).first, 600.0);
+    EXPECT_EQ(simulate(Situation::dense, seed).truth.size(), 12U);
+    const Scene meeting = simulate(Situation::meeting, seed);
+    const auto alive = [&](std::size_t k) {
+      return std::ranges::count_if(meeting.scans[k], [](const Row& row) { return row.truth.has_value(); });
+    };
+    EXPECT_EQ(alive(39), 4);
+    EXPECT_EQ(alive(40), 3);
+    EXPECT_LT(least_distance(meeting, 1, 2).first, 3.0);
+    for (const auto& [start, path] : meeting.truth)
+      for (std::size_t k = 2; k < path.size(); ++k) differences.add(path[k][0] - 2.0 * path[k - 1][0] + path[k - 2][0]);
+  }
+  EXPECT_CLOSE(differences.value(), std::sqrt(2.0 * 0.01 / 3.0), 0.002);
+}
+
+TEST(Situations, Refuse) {
+  EXPECT_INVALID(("P_D 1.5", "0 to 1"), simulate(Situation::dense, 1, {.detection_probability = 1.5}));
+  EXPECT_INVALID(("5 radars", "0 to 4"), simulate(Situation::dense, 1, {.radars = 5}));
+}
+
+}  // namespace situations_test
