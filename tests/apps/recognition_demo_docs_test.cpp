@@ -53,8 +53,8 @@ void expect_shown(const std::string& page, std::size_t commands) {
 
 TEST(RecognitionDemoPage, ShowsWhatTheProgramPrints) { expect_shown("recognition_demo.md", 4); }
 TEST(RecognitionDemoPage, OfRegimesShowsWhatTheProgramPrints) { expect_shown("recognition_demo_regimes.md", 1); }
-TEST(RecognitionDemoPage, OfLabelledDataShowsWhatTheProgramPrints) { expect_shown("recognition_demo_data.md", 2); }
-TEST(RecognitionDemoPage, OfMoreTablesShowsWhatTheProgramPrints) { expect_shown("recognition_demo_evaluate.md", 5); }
+TEST(RecognitionDemoPage, OfLabelledDataShowsWhatTheProgramPrints) { expect_shown("recognition_demo_data.md", 1); }
+TEST(RecognitionDemoPage, OfMoreTablesShowsWhatTheProgramPrints) { expect_shown("recognition_demo_evaluate.md", 2); }
 TEST(RecognitionDemoPage, OfAircraftShowsWhatTheProgramPrints) { expect_shown("recognition_demo_aircraft.md", 5); }
 
 }  // namespace recognition_demo_docs_test
