@@ -54,21 +54,6 @@ void compose(benchmark::State& state) {
   beside.report(operations(state));
 }
 
-/// The same with the first index that attains each maximum.
-void winners(benchmark::State& state) {
-  const auto n = static_cast<std::size_t>(state.range(0));
-  const Table left = numbers(n, 1), right = numbers(n, 2);
-  Table result(n, n);
-  kernels::FirstWinners winners;
-  BesidePeak beside{state, Operation::multiply_max};
-  for (auto _ : state) {
-    kernels::compose<Max>(left, right, result, &winners);
-    benchmark::DoNotOptimize(result.data());
-    benchmark::ClobberMemory();
-  }
-  beside.report(operations(state));
-}
-
 /// The plain loops over tables that the kernels replace.
 void plain_loops(benchmark::State& state) {
   const auto n = static_cast<std::size_t>(state.range(0));
@@ -76,7 +61,7 @@ void plain_loops(benchmark::State& state) {
   Table result(n, n);
   BesidePeak beside{state, Operation::multiply_max};
   for (auto _ : state) {
-    kernels::compose_plainly<false>(Max{}, left, right, result, nullptr);
+    kernels::compose_plainly(Max{}, left, right, result);
     benchmark::DoNotOptimize(result.data());
     benchmark::ClobberMemory();
   }
@@ -118,7 +103,6 @@ void sizes(benchmark::internal::Benchmark* benchmark) {
 
 BENCHMARK(compose<Sigma>)->Apply(sizes);
 BENCHMARK(compose<Max>)->Apply(sizes);
-BENCHMARK(winners)->Apply(sizes);
 BENCHMARK(plain_loops)->RangeMultiplier(4)->Range(smallest, greatest_of_loops);
 BENCHMARK(triple_loop<Add>)->RangeMultiplier(4)->Range(smallest, greatest_of_loops);
 BENCHMARK(triple_loop<Greater>)->RangeMultiplier(4)->Range(smallest, greatest_of_loops);

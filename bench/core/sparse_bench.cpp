@@ -7,7 +7,6 @@
 
 #include <sigmax/core/compose.hpp>
 #include <sigmax/core/update.hpp>
-#include <sigmax/core/witness.hpp>
 
 #include "numbers.hpp"
 
@@ -55,15 +54,6 @@ void compose_sparse_again(benchmark::State& state) {
   count_operations(state, entries);
 }
 
-/// The same with the first intermediate value that attains each number.
-template <Uncertainty Kind>
-void sparse_winners(benchmark::State& state) {
-  const auto left = bench::sparse_transition<Kind>(size(state), 1),
-             right = bench::sparse_transition<Kind>(size(state), 2);
-  for (auto _ : state) benchmark::DoNotOptimize(compose_with_witness(left, right));
-  count_operations(state, entries);
-}
-
 template <Uncertainty Kind>
 void compose_banded(benchmark::State& state) {
   const auto left = banded<Kind>(size(state)), right = banded<Kind>(size(state));
@@ -91,7 +81,6 @@ BENCHMARK(compose_sparse<Random>)->RangeMultiplier(10)->Range(1000, 100000)->Uni
 BENCHMARK(compose_sparse<Fuzzy>)->RangeMultiplier(10)->Range(1000, 100000)->Unit(benchmark::kMillisecond);
 BENCHMARK(compose_sparse_again<Random>)->RangeMultiplier(10)->Range(1000, 100000)->Unit(benchmark::kMillisecond);
 BENCHMARK(compose_sparse_again<Fuzzy>)->RangeMultiplier(10)->Range(1000, 100000)->Unit(benchmark::kMillisecond);
-BENCHMARK(sparse_winners<Fuzzy>)->RangeMultiplier(10)->Range(1000, 100000)->Unit(benchmark::kMillisecond);
 BENCHMARK(compose_banded<Random>)->RangeMultiplier(10)->Range(1000, 100000)->Unit(benchmark::kMillisecond);
 BENCHMARK(compose_banded<Fuzzy>)->RangeMultiplier(10)->Range(1000, 100000)->Unit(benchmark::kMillisecond);
 BENCHMARK(compose_with_distribution<Random>)->Arg(100000)->Unit(benchmark::kMillisecond);

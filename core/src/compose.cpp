@@ -26,15 +26,14 @@ struct ColumnsOfTable {
 
 }  // namespace
 
-void compose(const AnyAlgebra& middle, const AnyRows& left, const AnyRows& right, bool normalized, AnyRows& result,
-             kernels::FirstWinners* winners) {
+void compose(const AnyAlgebra& middle, const AnyRows& left, const AnyRows& right, bool normalized, AnyRows& result) {
   if (&left == &result || &right == &result) {
     AnyRows copy = Table(0, 0);
-    compose(middle, left, right, normalized, copy, winners);
+    compose(middle, left, right, normalized, copy);
     result = std::move(copy);
     return;
   }
-  kernels::compose(middle, left, right, result, winners);
+  kernels::compose(middle, left, right, result);
   if (!normalized || !middle.scales) return;
   with_scaling(middle, [&](auto a) {
     std::visit(

@@ -145,10 +145,6 @@ std::span<double> values_of(AnyRows& rows, std::size_t r) {
   return std::visit([r](auto& stored) { return stored.values(r); }, rows);
 }
 
-std::size_t offset_of(const AnyRows& rows, std::size_t r) {
-  return std::visit([r](const auto& stored) { return stored.offset(r); }, rows);
-}
-
 Table dense_row(const AnyRows& rows, std::size_t r) {
   Table row(1, std::visit([](const auto& stored) { return stored.columns(); }, rows));
   const AnyEntries entries = entries_of(rows, r);

@@ -45,18 +45,6 @@ struct Size {
 const std::vector<Size> sizes{{1, 1, 1},    {3, 5, 2},    {7, 11, 63},  {8, 9, 64},    {5, 33, 65},
                               {4, 17, 127}, {19, 3, 129}, {3, 7, 4095}, {2, 13, 4096}, {3, 9, 4097}};
 
-/// The winners as they would lie in a dense result; 0 where nothing is stored.
-template <class Rows>
-std::vector<kernels::Winner> dense_winners(const Rows& rows, const std::vector<kernels::Winner>& winners) {
-  std::vector<kernels::Winner> result(rows.rows() * rows.columns(), 0);
-  for (std::size_t r = 0; r < rows.rows(); ++r) {
-    const auto entries = rows.entries(r);
-    for (std::size_t k = 0; k < entries.size(); ++k)
-      result[r * rows.columns() + entries.index(k)] = winners[rows.offset(r) + k];
-  }
-  return result;
-}
-
 /// Whether the columns of every row ascend.
 bool ascend(const SparseRows& rows) {
   for (std::size_t r = 0; r < rows.rows(); ++r) {
@@ -66,14 +54,13 @@ bool ascend(const SparseRows& rows) {
   return true;
 }
 
-/// Composes parts stored in any way, over a former result, and compares to the bit; winners as well where ⊕ selects.
+/// Composes parts stored in any way, over a former result, and compares to the bit.
 template <class A, class Add>
 void expect_as_defined(Draw draw, Add add) {
   AnyRows result = sparse(drawn(2, 3, uniform, 7));
   for (const Size& size : sizes) {
     const Table right = thinned(size.rows, size.inner, draw, 1), left = thinned(size.inner, size.columns, draw, 2);
-    std::vector<kernels::Winner> first;
-    const Table expected = defined(left, right, add, first);
+    const Table expected = defined(left, right, add);
     for (const AnyRows& l : {AnyRows{sparse(left)}, AnyRows{banded(left)}})
       for (const AnyRows& r : {AnyRows{sparse(right)}, AnyRows{banded(right)}, AnyRows{right}}) {
         const std::string at = std::to_string(size.rows) + " × " + std::to_string(size.inner) + " × " +
@@ -83,12 +70,6 @@ void expect_as_defined(Draw draw, Add add) {
         ASSERT_TRUE(std::ranges::equal(dense_table(result).values(), expected.values())) << at;
         if (const auto* const rows = std::get_if<SparseRows>(&result)) {
           ASSERT_TRUE(ascend(*rows)) << at;
-        }
-        if constexpr (SelectiveAlgebra<A>) {
-          kernels::FirstWinners winners;
-          kernels::compose<A>(l, r, result, &winners);
-          ASSERT_TRUE(std::ranges::equal(dense_table(result).values(), expected.values())) << at;
-          ASSERT_EQ(std::visit([&](const auto& rows) { return dense_winners(rows, winners); }, result), first) << at;
         }
       }
   }
@@ -115,7 +96,7 @@ TEST(Sparse, ManyTermsOfOneColumnNeedNoMoreRoomThanTheResult) {
     right.end_row();
   }
   SparseRows result;
-  kernels::sparse_composition<false>(Max{}, left, right, result, nullptr);
+  kernels::sparse_composition(Max{}, left, right, result);
   ASSERT_EQ(result.stored(), 2000U);
   EXPECT_EQ(result.at(999, 0), 0.5);
   EXPECT_EQ(result.at(999, 1), 0.999);
@@ -130,7 +111,7 @@ TEST(Sparse, RowsOfNoneAndOfVeryDifferentSizesAreComposed) {
   for (std::size_t i = 0; i < 50; ++i) right.append({{i, 1.0}});
   for (std::size_t i = 0; i < 50; ++i) right.append({{99, 1.0}});
   SparseRows result;
-  kernels::sparse_composition<false>(Sigma{}, left, right, result, nullptr);
+  kernels::sparse_composition(Sigma{}, left, right, result);
   ASSERT_EQ(result.rows(), 100U);
   ASSERT_EQ(result.stored(), 50U * 5000U);
   EXPECT_EQ(result.entries(49).size(), 0U);

@@ -34,7 +34,7 @@ TEST(UnboundedRow, ComposesInBandsWhatDoublesCannotHoldTogether) {
     EXPECT_EQ((*result)[2], ScaledNumber(1.0, -5002));
     EXPECT_EQ((*result)[3], ScaledNumber(1.0, -1002));  // ½ · 2^−1001, above 2^−1074
   }
-  EXPECT_EQ(winners.first, (std::vector<Winner>{0, 1, 2, 1}));
+  EXPECT_EQ(winners.first, (std::vector<Winners::Index>{0, 1, 2, 1}));
 }
 
 TEST(UnboundedRow, TakesTheFirstOfWinnersInTwoBands) {
@@ -45,7 +45,7 @@ TEST(UnboundedRow, TakesTheFirstOfWinnersInTwoBands) {
   row[2] = ScaledNumber{};
   Winners winners;
   result.assign_composition(table, row, any_algebra<Max>(), &winners);
-  EXPECT_EQ(winners.first, (std::vector<Winner>{0}));
+  EXPECT_EQ(winners.first, (std::vector<Winners::Index>{0}));
   EXPECT_EQ(result[0], ScaledNumber(1.0, -1000));
 }
 

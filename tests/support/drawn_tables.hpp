@@ -34,18 +34,13 @@ inline double summed(double sum, double weight, double value) { return sum + wei
 inline double max_of(double sum, double weight, double value) { return weight * value > sum ? weight * value : sum; }
 inline double max_min(double sum, double weight, double value) { return std::max(sum, std::min(weight, value)); }
 
-/// The definition, one number after the other, with the first index that raised it last.
+/// The definition, one number after the other.
 template <class Add>
-Table defined(const Table& left, const Table& right, Add add, std::vector<kernels::Winner>& first) {
+Table defined(const Table& left, const Table& right, Add add) {
   Table result(right.rows(), left.columns(), 0.0);
-  first.assign(result.size(), 0);
   for (std::size_t i = 0; i < right.rows(); ++i)
     for (std::size_t k = 0; k < left.columns(); ++k)
-      for (std::size_t j = 0; j < left.rows(); ++j) {
-        const double next = add(result(i, k), right(i, j), left(j, k));
-        if (next != result(i, k)) first[i * left.columns() + k] = static_cast<kernels::Winner>(j);
-        result(i, k) = next;
-      }
+      for (std::size_t j = 0; j < left.rows(); ++j) result(i, k) = add(result(i, k), right(i, j), left(j, k));
   return result;
 }
 

@@ -6,7 +6,6 @@
 /// const, copies share only what never changes, and no verb keeps a state of its own.
 
 #include <sigmax/core/algebra.hpp>
-#include <sigmax/core/assignment.hpp>
 #include <sigmax/core/belief.hpp>
 #include <sigmax/core/chain.hpp>
 #include <sigmax/core/check.hpp>
@@ -42,4 +41,3 @@
 #include <sigmax/core/uncertainty.hpp>
 #include <sigmax/core/update.hpp>
 #include <sigmax/core/variable.hpp>
-#include <sigmax/core/witness.hpp>

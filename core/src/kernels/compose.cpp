@@ -13,31 +13,15 @@
 namespace sigmax::kernels {
 namespace {
 
-/// action(algebra, whether winners are wanted), both known to the compiler.
-template <class Action>
-decltype(auto) with(const AnyAlgebra& algebra, const FirstWinners* winners, const Action& action) {
-  return sigmax::detail::with(
-      algebra, [&](auto a) { return winners ? action(a, std::true_type{}) : action(a, std::false_type{}); });
-}
+using sigmax::detail::with;
 
-/// The same of parts stored in any way, by plain loops.
-template <class Left, class Right>
-void compose_in_loops(const AnyAlgebra& algebra, const Left& left, const Right& right, Table& result,
-                      FirstWinners* winners) {
-  result.reshape(right.rows(), left.columns());
-  with(algebra, winners, [&](auto a, auto wanted) { compose_plainly<wanted>(a, left, right, result, winners); });
-}
-
-/// Tables for which there is no kernel, or with winners: apart, so that small ones, which take nanoseconds, need not
+/// The same of parts stored in any way, by plain loops: apart, so that small tables, which take nanoseconds, need not
 /// save registers for it.
-[[gnu::noinline]] void compose_otherwise(const AnyAlgebra& algebra, const Table& left, const Table& right,
-                                         Table& result, FirstWinners* winners) {
-  const DenseParts parts{right.data(), left.data(), result.data(), right.rows(), left.rows(), left.columns()};
-  if (winners && worth_tiling(parts)) {
-    winners->resize(result.size());
-    if (compose_tiled(algebra, parts, winners->data())) return;
-  }
-  compose_in_loops(algebra, left, right, result, winners);
+template <class Left, class Right>
+[[gnu::noinline]] void compose_in_loops(const AnyAlgebra& algebra, const Left& left, const Right& right,
+                                        Table& result) {
+  result.reshape(right.rows(), left.columns());
+  with(algebra, [&](auto a) { compose_plainly(a, left, right, result); });
 }
 
 /// Whether a composition is worth storing sparsely: it is not if `left` is dense, nor if the rows of `left` could fill
@@ -65,40 +49,36 @@ SparseRows& as_sparse_rows(AnyRows& rows) {
 
 }  // namespace
 
-void compose_shaped(const AnyAlgebra& algebra, const Table& left, const Table& right, Table& result,
-                    FirstWinners* winners) {
+void compose_shaped(const AnyAlgebra& algebra, const Table& left, const Table& right, Table& result) {
   const DenseParts parts{right.data(), left.data(), result.data(), right.rows(), left.rows(), left.columns()};
-  if (!winners && (worth_tiling(parts) ? compose_tiled(algebra, parts, nullptr) : compose_narrow(algebra, parts)))
-    return;
-  compose_otherwise(algebra, left, right, result, winners);
+  if (worth_tiling(parts) ? compose_tiled(algebra, parts) : compose_narrow(algebra, parts)) return;
+  compose_in_loops(algebra, left, right, result);
 }
 
-void compose(const AnyAlgebra& algebra, const AnyRows& left, const Table& right, Table& result, FirstWinners* winners) {
-  if (const Table* const table = std::get_if<Table>(&left)) return compose(algebra, *table, right, result, winners);
-  std::visit([&](const auto& l) { compose_in_loops(algebra, l, right, result, winners); }, left);
+void compose(const AnyAlgebra& algebra, const AnyRows& left, const Table& right, Table& result) {
+  if (const Table* const table = std::get_if<Table>(&left)) return compose(algebra, *table, right, result);
+  std::visit([&](const auto& l) { compose_in_loops(algebra, l, right, result); }, left);
 }
 
-void compose(const AnyAlgebra& algebra, const AnyRows& left, const AnyRows& right, AnyRows& result,
-             FirstWinners* winners) {
+void compose(const AnyAlgebra& algebra, const AnyRows& left, const AnyRows& right, AnyRows& result) {
   std::visit(
       [&]<class Left, class Right>(const Left& l, const Right& r) {
         if constexpr (std::is_same_v<Left, BandedRows> && std::is_same_v<Right, BandedRows>)
           if (is_banded(l, r)) {
-            result = with(algebra, winners,
-                          [&](auto a, auto wanted) { return banded_composition<wanted>(a, l, r, winners); });
+            result = with(algebra, [&](auto a) { return banded_composition(a, l, r); });
             return;
           }
         if constexpr (!std::is_same_v<Left, Table>)
           if (is_sparse(l, r)) {
             SparseRows& rows = as_sparse_rows(result);
-            with(algebra, winners, [&](auto a, auto wanted) { sparse_composition<wanted>(a, l, r, rows, winners); });
-            if (!winners && rows.stored() >= rows.rows() * rows.columns() / 2) result = dense_table(result);
+            with(algebra, [&](auto a) { sparse_composition(a, l, r, rows); });
+            if (rows.stored() >= rows.rows() * rows.columns() / 2) result = dense_table(result);
             return;
           }
         if constexpr (std::is_same_v<Left, Table> && std::is_same_v<Right, Table>)
-          compose(algebra, l, r, as_table(result), winners);
+          compose(algebra, l, r, as_table(result));
         else
-          compose_in_loops(algebra, l, r, as_table(result), winners);
+          compose_in_loops(algebra, l, r, as_table(result));
       },
       left, right);
 }

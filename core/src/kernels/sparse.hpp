@@ -54,34 +54,26 @@ class AscendingSet {
 
 /// One row of a sparse result while it grows, indexed by column. Touching a column adds it to the row with the value
 /// zero.
-template <bool WithWinners>
 class GrowingRow {
  public:
-  GrowingRow(std::size_t columns, double zero)
-      : zero_(zero), numbers_(columns, zero), winners_(WithWinners ? columns : 0, 0), touched_(columns) {}
+  GrowingRow(std::size_t columns, double zero) : zero_(zero), numbers_(columns, zero), touched_(columns) {}
 
   double& operator[](std::size_t column) {
     touched_.insert(column);
     return numbers_[column];
   }
 
-  /// The winners of the row, by column.
-  Winner* winners() { return winners_.data(); }
-
-  /// Writes the columns that were touched, ascending, and their numbers, and appends their winners; returns how many
-  /// they are, and ends the row. There is room for one more column.
-  std::size_t drain(std::uint32_t* columns, double* numbers, FirstWinners* winners) {
+  /// Writes the columns that were touched, ascending, and their numbers; returns how many they are, and ends the row.
+  /// There is room for one more column.
+  std::size_t drain(std::uint32_t* columns, double* numbers) {
     const std::size_t size = touched_.drain(columns);
     for (std::size_t k = 0; k < size; ++k) numbers[k] = std::exchange(numbers_[columns[k]], zero_);
-    if constexpr (WithWinners)
-      for (std::size_t k = 0; k < size; ++k) winners->push_back(std::exchange(winners_[columns[k]], 0));
     return size;
   }
 
  private:
   double zero_;
   std::vector<double> numbers_;
-  FirstWinners winners_;
   AscendingSet touched_;
 };
 
@@ -122,16 +114,11 @@ std::size_t expected_terms(const Left& left, const Right& right) {
 /// proportional to the products. Each number is added up in the order of j, as in a dense result, hence equal to the
 /// last bit. Sums may differ by rounding from those of the tiled kernel for large tables. `result` is neither of the
 /// parts, and its memory is used again.
-template <bool WithWinners, class A, class Left, class Right>
-void sparse_composition(A algebra, const Left& left, const Right& right, SparseRows& result, FirstWinners* winners) {
-  const std::size_t expected = expected_terms(left, right);
+template <class A, class Left, class Right>
+void sparse_composition(A algebra, const Left& left, const Right& right, SparseRows& result) {
   result.clear(left.columns());
-  result.reserve(right.rows(), expected);
-  if constexpr (WithWinners) {
-    winners->clear();
-    winners->reserve(expected);
-  }
-  GrowingRow<WithWinners> row(left.columns(), algebra.zero());
+  result.reserve(right.rows(), expected_terms(left, right));
+  GrowingRow row(left.columns(), algebra.zero());
   std::size_t terms = right.rows() > 0 ? announce(left, right.entries(0)) : 0;
   for (std::size_t i = 0; i < right.rows(); ++i) {
     const std::size_t room = std::min(terms, left.columns()) + 1;
@@ -139,11 +126,10 @@ void sparse_composition(A algebra, const Left& left, const Right& right, SparseR
     const auto weights = right.entries(i);
     for (std::size_t j = 0; j < weights.size(); ++j) {
       if (weights.value(j) == algebra.zero()) continue;
-      accumulate<WithWinners>(algebra, weights.value(j), left.entries(weights.index(j)), row, weights.index(j),
-                              row.winners());
+      accumulate(algebra, weights.value(j), left.entries(weights.index(j)), row);
     }
     const auto [columns, numbers] = result.room(room);
-    result.end_row(row.drain(columns, numbers, winners));
+    result.end_row(row.drain(columns, numbers));
   }
 }
 
@@ -163,23 +149,20 @@ inline Reach reach(const BandedRows& left, const RunOfEntries& weights) {
 }
 
 /// The same of banded parts: again banded.
-template <bool WithWinners, class A>
-BandedRows banded_composition(A algebra, const BandedRows& left, const BandedRows& right, FirstWinners* winners) {
+template <class A>
+BandedRows banded_composition(A algebra, const BandedRows& left, const BandedRows& right) {
   BandedRows result(left.columns());
-  if constexpr (WithWinners) winners->clear();
   for (std::size_t i = 0; i < right.rows(); ++i) {
     const RunOfEntries weights = right.entries(i);
     const Reach all = reach(left, weights);
     const std::size_t first = all.size() > 0 ? all.first : 0;
     result.append(first, all.size(), algebra.zero());
-    if constexpr (WithWinners) winners->resize(result.stored(), 0);
     double* const out = result.values(i).data();
     for (std::size_t j = 0; j < weights.size(); ++j) {
       RunOfEntries terms = left.entries(weights.index(j));
       if (terms.size() == 0) continue;
       terms.first -= first;
-      accumulate<WithWinners>(algebra, weights.value(j), terms, out, weights.index(j),
-                              WithWinners ? winners->data() + result.offset(i) : nullptr);
+      accumulate(algebra, weights.value(j), terms, out);
     }
   }
   return result;

@@ -13,7 +13,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <cstdint>
 #include <limits>
 #include <type_traits>
 #include <vector>
@@ -41,8 +40,6 @@ constexpr std::size_t tile_columns = tile_vectors * lanes;
 // The rows of a tile lie in the first cache while the strips of a block, which is in the second, pass by.
 constexpr std::size_t inner_block = 512, column_block = 144;
 static_assert(column_block % tile_columns == 0);
-// With winners a tile is smaller, for their indices lie in registers, too.
-constexpr std::size_t winner_rows = many_registers ? 4 : 2;
 // Up to this size strips are read where they are.
 constexpr std::size_t in_place_inner = 128, in_place_columns = 256;
 
@@ -68,80 +65,56 @@ struct Rows {
   HWY_INLINE const double* row(std::size_t r) const { return first + r * step; }
 };
 
-/// Where a tile of the result is, and its winners.
+/// Where a tile of the result is.
 struct Out {
   double* numbers;
-  Winner* first;
   std::size_t step;
 };
 
 /// out(r, ·) = out(r, ·) ⊕ ⊕_j weights(r, j) ⊗ strip(j, ·), for R rows and V vectors; `fresh` if there is nothing in
-/// `out` yet. With winners it always is fresh, and j goes over all there are.
-template <class A, bool WithWinners, std::size_t R, std::size_t V>
+/// `out` yet.
+template <class A, std::size_t R, std::size_t V>
 HWY_NOINLINE void add_tile(std::size_t inner, Rows weights, Rows strip, Out out, bool fresh) {
-  Vector sums[R][V], firsts[R][V];
+  Vector sums[R][V];
   for (std::size_t r = 0; r < R; ++r)
-    for (std::size_t v = 0; v < V; ++v) {
+    for (std::size_t v = 0; v < V; ++v)
       sums[r][v] = fresh ? hn::Zero(all) : hn::LoadU(all, out.numbers + r * out.step + v * lanes);
-      if constexpr (WithWinners) firsts[r][v] = hn::Zero(all);
-    }
-  Vector index = hn::Zero(all);
   for (std::size_t j = 0; j < inner; ++j) {
     Vector values[V];
     for (std::size_t v = 0; v < V; ++v) values[v] = hn::LoadU(all, strip.row(j) + v * lanes);
     for (std::size_t r = 0; r < R; ++r) {
       const Vector weight = hn::Set(all, weights.row(r)[j]);
-      for (std::size_t v = 0; v < V; ++v) {
-        if constexpr (WithWinners) {
-          const Vector term = product(A{}, weight, values[v]);
-          firsts[r][v] = hn::IfThenElse(hn::Lt(sums[r][v], term), index, firsts[r][v]);
-          sums[r][v] = greater(term, sums[r][v]);
-        } else {
-          sums[r][v] = added(A{}, weight, values[v], sums[r][v]);
-        }
-      }
+      for (std::size_t v = 0; v < V; ++v) sums[r][v] = added(A{}, weight, values[v], sums[r][v]);
     }
-    if constexpr (WithWinners) index = hn::Add(index, hn::Set(all, 1.0));
   }
-  constexpr hn::Rebind<std::int32_t, Doubles> integers;
-  constexpr hn::RebindToUnsigned<decltype(integers)> indices;
   for (std::size_t r = 0; r < R; ++r)
-    for (std::size_t v = 0; v < V; ++v) {
-      const std::size_t at = r * out.step + v * lanes;
-      hn::StoreU(sums[r][v], all, out.numbers + at);
-      if constexpr (WithWinners)
-        hn::StoreU(hn::BitCast(indices, hn::DemoteTo(integers, firsts[r][v])), indices, out.first + at);
-    }
+    for (std::size_t v = 0; v < V; ++v) hn::StoreU(sums[r][v], all, out.numbers + r * out.step + v * lanes);
 }
 
 /// The same for up to a tile's vectors.
-template <class A, bool WithWinners, std::size_t R>
+template <class A, std::size_t R>
 HWY_INLINE void add_vectors(std::size_t vectors, std::size_t inner, Rows weights, Rows strip, Out out, bool fresh) {
   if (vectors == 1)
-    add_tile<A, WithWinners, R, 1>(inner, weights, strip, out, fresh);
+    add_tile<A, R, 1>(inner, weights, strip, out, fresh);
   else if (vectors == 2)
-    add_tile<A, WithWinners, R, 2>(inner, weights, strip, out, fresh);
+    add_tile<A, R, 2>(inner, weights, strip, out, fresh);
   else
-    add_tile<A, WithWinners, R, tile_vectors>(inner, weights, strip, out, fresh);
+    add_tile<A, R, tile_vectors>(inner, weights, strip, out, fresh);
 }
 
 /// The same for up to a tile's columns. Those that do not fill a vector go through a copy.
-template <class A, bool WithWinners, std::size_t R>
+template <class A, std::size_t R>
 HWY_INLINE void add_columns(std::size_t columns, std::size_t inner, Rows weights, Rows strip, Out out, bool fresh) {
   const std::size_t vectors = hwy::DivCeil(columns, lanes);
   if (columns == vectors * lanes) {
-    add_vectors<A, WithWinners, R>(vectors, inner, weights, strip, out, fresh);
+    add_vectors<A, R>(vectors, inner, weights, strip, out, fresh);
     return;
   }
   double copy[R * tile_columns];
-  Winner firsts[R * tile_columns];
   for (std::size_t r = 0; r < R && !fresh; ++r)
     std::copy_n(out.numbers + r * out.step, columns, copy + r * tile_columns);
-  add_vectors<A, WithWinners, R>(vectors, inner, weights, strip, {copy, firsts, tile_columns}, fresh);
-  for (std::size_t r = 0; r < R; ++r) {
-    std::copy_n(copy + r * tile_columns, columns, out.numbers + r * out.step);
-    if constexpr (WithWinners) std::copy_n(firsts + r * tile_columns, columns, out.first + r * out.step);
-  }
+  add_vectors<A, R>(vectors, inner, weights, strip, {copy, tile_columns}, fresh);
+  for (std::size_t r = 0; r < R; ++r) std::copy_n(copy + r * tile_columns, columns, out.numbers + r * out.step);
 }
 
 /// action(r, constant) for every group of rows that makes a tile: as many as fit, then fewer.
@@ -176,10 +149,9 @@ void copy_strip(const DenseParts& parts, std::size_t j0, std::size_t inner, std:
 
 /// Some columns of a composition, to which `inner` indices add their terms. Strips are read where they are, if they are
 /// of whole vectors, or from copies.
-template <class A, bool WithWinners>
+template <class A>
 struct Block {
   const DenseParts& parts;
-  Winner* first;
   bool in_place;
   double* copies;
   std::size_t k0, columns, j0, inner;
@@ -196,46 +168,42 @@ struct Block {
   template <std::size_t R>
   HWY_INLINE void add(std::size_t i, std::size_t k) const {
     const Rows strip = is_copied(k) ? Rows{copy(k), tile_columns} : Rows{parts.left + k, parts.columns};
-    const std::size_t at = i * parts.columns + k0 + k;
-    add_columns<A, WithWinners, R>(width(k), inner, {parts.right + i * parts.inner + j0, parts.inner}, strip,
-                                   {parts.result + at, WithWinners ? first + at : nullptr, parts.columns}, j0 == 0);
+    add_columns<A, R>(width(k), inner, {parts.right + i * parts.inner + j0, parts.inner}, strip,
+                      {parts.result + i * parts.columns + k0 + k, parts.columns}, j0 == 0);
   }
 };
 
-template <class A, bool WithWinners>
-HWY_NOINLINE void compose_all(const DenseParts& parts, Winner* first) {
-  constexpr std::size_t most_rows = WithWinners ? winner_rows : tile_rows;
+template <class A>
+HWY_NOINLINE void compose_all(const DenseParts& parts) {
   if (parts.inner <= in_place_inner && parts.columns <= in_place_columns) {
     double last[in_place_inner * tile_columns];
-    const Block<A, WithWinners> whole{parts, first, true, last, 0, parts.columns, 0, parts.inner};
+    const Block<A> whole{parts, true, last, 0, parts.columns, 0, parts.inner};
     whole.copy_strips();
     for (std::size_t k = 0; k < parts.columns; k += tile_columns)
-      for_each_group<most_rows>(parts.rows,
+      for_each_group<tile_rows>(parts.rows,
                                 [&, k](std::size_t i, auto group) HWY_ATTR { whole.template add<group>(i, k); });
     return;
   }
-  const std::size_t inner_step = WithWinners ? parts.inner : inner_block;
-  constexpr std::size_t column_step = WithWinners ? tile_columns : column_block;
-  double* const copies = room(inner_step * column_step);
-  for (std::size_t k0 = 0; k0 < parts.columns; k0 += column_step)
-    for (std::size_t j0 = 0; j0 < parts.inner; j0 += inner_step) {
-      const std::size_t columns = std::min(column_step, parts.columns - k0);
-      const std::size_t inner = std::min(inner_step, parts.inner - j0);
-      const Block<A, WithWinners> some{parts, first, false, copies, k0, columns, j0, inner};
+  double* const copies = room(inner_block * column_block);
+  for (std::size_t k0 = 0; k0 < parts.columns; k0 += column_block)
+    for (std::size_t j0 = 0; j0 < parts.inner; j0 += inner_block) {
+      const std::size_t columns = std::min(column_block, parts.columns - k0);
+      const std::size_t inner = std::min(inner_block, parts.inner - j0);
+      const Block<A> some{parts, false, copies, k0, columns, j0, inner};
       some.copy_strips();
-      for_each_group<most_rows>(parts.rows, [&](std::size_t i, auto group) HWY_ATTR {
+      for_each_group<tile_rows>(parts.rows, [&](std::size_t i, auto group) HWY_ATTR {
         for (std::size_t k = 0; k < columns; k += tile_columns) some.template add<group>(i, k);
       });
     }
 }
 
-void compose_by(const AnyAlgebra& algebra, const DenseParts& parts, Winner* first) {
+void compose_by(const AnyAlgebra& algebra, const DenseParts& parts) {
   if (algebra.name == AnyAlgebra::sigma)
-    compose_all<Sigma, false>(parts, nullptr);
+    compose_all<Sigma>(parts);
   else if (algebra.name == AnyAlgebra::max)
-    first ? compose_all<Max, true>(parts, first) : compose_all<Max, false>(parts, nullptr);
+    compose_all<Max>(parts);
   else
-    first ? compose_all<MaxMin, true>(parts, first) : compose_all<MaxMin, false>(parts, nullptr);
+    compose_all<MaxMin>(parts);
 }
 
 /// The least of all numbers.
@@ -298,7 +266,7 @@ Range range_of(const double* numbers, std::size_t size) {
 /// Composes by products, without arithmetic on subnormal numbers. Where a result is so small that what was lost
 /// matters, it is composed again of larger numbers: scaling by powers of two rounds nothing.
 template <class Compose>
-bool compose_products(const DenseParts& parts, double least_exact, const Compose& compose, Winner* first) {
+bool compose_products(const DenseParts& parts, double least_exact, const Compose& compose) {
   const std::size_t size = parts.rows * parts.columns;
   {
     const FlushedSubnormals flushed;
@@ -320,25 +288,22 @@ bool compose_products(const DenseParts& parts, double least_exact, const Compose
     const FlushedSubnormals flushed;
     compose({raised_right.data(), raised_left.data(), parts.result, parts.rows, parts.inner, parts.columns});
   }
-  for (std::size_t k = 0; k < size; ++k) {
-    parts.result[k] *= 0x1p-512;
-    if (first != nullptr && parts.result[k] == 0.0) first[k] = 0;
-  }
+  for (std::size_t k = 0; k < size; ++k) parts.result[k] *= 0x1p-512;
   return true;
 }
 
 }  // namespace
 
-bool compose_tiled(const AnyAlgebra& algebra, const DenseParts& parts, Winner* first) {
-  if (algebra.name == AnyAlgebra::other || (first && !algebra.selective)) return false;
-  const auto compose = [&](const DenseParts& some) { HWY_DYNAMIC_DISPATCH(compose_by)(algebra, some, first); };
+bool compose_tiled(const AnyAlgebra& algebra, const DenseParts& parts) {
+  if (algebra.name == AnyAlgebra::other) return false;
+  const auto compose = [&](const DenseParts& some) { HWY_DYNAMIC_DISPATCH(compose_by)(algebra, some); };
   if (algebra.name == AnyAlgebra::max_min) {
     compose(parts);
     return true;
   }
   // Each term of a sum may have lost up to the least normal number: that is below rounding in sums above this.
   const double terms = algebra.selective ? 1.0 : static_cast<double>(parts.inner) * 0x1p54;
-  return compose_products(parts, terms * least_normal, compose, first);
+  return compose_products(parts, terms * least_normal, compose);
 }
 
 }  // namespace sigmax::kernels

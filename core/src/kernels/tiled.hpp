@@ -23,13 +23,12 @@ inline bool worth_tiling(const DenseParts& parts) {
   return parts.rows >= 4 && parts.columns >= 8 && parts.inner >= 4 && parts.rows * parts.inner * parts.columns >= 512;
 }
 
-/// Composes dense tables by the widest vectors that the machine has, found out when the program runs. `first`, which
-/// may be null, gets for each number the first index that attains it, 0 where the number is zero. False, and nothing is
-/// done that matters, for an algebra of another's, winners of sums, numbers out of range, and without Highway.
+/// Composes dense tables by the widest vectors that the machine has, found out when the program runs. False,
+/// and nothing is done that matters, for an algebra of another's, numbers out of range, and without Highway.
 ///
 /// The numbers are those of the plain loops: to the bit where ⊕ selects, to rounding where it adds. Products below the
 /// least normal number, 2^−1022, cost no more than others and are not lost; a result there is within 2^−1074 of that of
-/// the plain loops, and its winner is decided before it is rounded to so few digits.
-bool compose_tiled(const AnyAlgebra& algebra, const DenseParts& parts, Winner* first);
+/// the plain loops.
+bool compose_tiled(const AnyAlgebra& algebra, const DenseParts& parts);
 
 }  // namespace sigmax::kernels

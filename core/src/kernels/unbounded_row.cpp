@@ -72,7 +72,7 @@ struct EntriesOfBand {
 };
 
 /// Where a term from another band, with a winner of its own, joins a number.
-void merge(Winner& winner, ScaledNumber number, ScaledNumber term, Winner of_term) {
+void merge(Winners::Index& winner, ScaledNumber number, ScaledNumber term, Winners::Index of_term) {
   if (term.is_zero()) return;
   if (term == number)
     winner = std::min(winner, of_term);
@@ -80,23 +80,12 @@ void merge(Winner& winner, ScaledNumber number, ScaledNumber term, Winner of_ter
     winner = of_term;
 }
 
-/// What `accumulate` does, taking note of all attempts.
-template <class A, class Entries>
-void attempt(A algebra, double weight, const Entries& row, double* out, std::size_t index, Winners& winners) {
-  for (std::size_t k = 0; k < row.size(); ++k) {
-    double& sum = out[row.index(k)];
-    const double next = algebra.plus(sum, algebra.times(weight, row.value(k)));
-    if (next != sum) winners.attempts[row.index(k)].push_back({static_cast<Winner>(index), next});
-    sum = next;
-  }
-}
-
 template <bool WithWinners, class A, class Left>
 void compose(A algebra, const Left& left, std::span<const ScaledNumber> before, std::vector<ScaledNumber>& result,
              std::vector<double>& sums, Winners* winners) {
   result.resize(left.columns());
   bool fresh = true;  // nothing in `result` yet
-  FirstWinners of_band;
+  std::vector<Winners::Index> of_band;
   if constexpr (WithWinners && Scaling<A>) winners->first.assign(left.columns(), 0);
   if constexpr (WithWinners && !Scaling<A>) winners->attempts.assign(left.columns(), {});
   for_each_band<A>(before, [&](const Band<A>& band) {
@@ -106,10 +95,16 @@ void compose(A algebra, const Left& left, std::span<const ScaledNumber> before, 
     for (std::size_t j = 0; j < before.size(); ++j) {
       if (!band.has(before[j])) continue;
       const EntriesOfBand<A, decltype(left.entries(j))> row{left.entries(j)};
-      if constexpr (WithWinners && !Scaling<A>)
-        attempt(algebra, band.weight(before[j]), row, out, j, *winners);
+      const auto index = static_cast<Winners::Index>(j);
+      if constexpr (!WithWinners)
+        accumulate(algebra, band.weight(before[j]), row, out);
       else
-        accumulate<WithWinners>(algebra, band.weight(before[j]), row, out, j, of_band.data());
+        accumulate(algebra, band.weight(before[j]), row, out, [&](std::size_t k, bool better, double value) {
+          if constexpr (Scaling<A>)
+            of_band[k] = better ? index : of_band[k];
+          else if (better)
+            winners->attempts[k].push_back({index, value});
+        });
     }
     for (std::size_t k = 0; k < result.size(); ++k) {
       const ScaledNumber so_far = fresh ? ScaledNumber{} : result[k], term = band.number(sums[k]);

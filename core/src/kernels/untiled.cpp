@@ -6,7 +6,7 @@
 
 namespace sigmax::kernels {
 
-bool compose_tiled(const AnyAlgebra&, const DenseParts&, Winner*) { return false; }
+bool compose_tiled(const AnyAlgebra&, const DenseParts&) { return false; }
 double tiled_sum_of_exponentials(const double*, std::size_t) { return -1.0; }
 
 }  // namespace sigmax::kernels

@@ -31,10 +31,9 @@ using InducedBy = std::conditional_t<is_induced<Left> || is_induced<Right> ||
 
 namespace detail {
 
-/// `left` after `right` by the algebra of the variable between them, written into `result`, which may be one of them;
-/// `winners` may be null. If the result is normalised by law, what has drifted is divided out.
-void compose(const AnyAlgebra& middle, const AnyRows& left, const AnyRows& right, bool normalized, AnyRows& result,
-             kernels::FirstWinners* winners = nullptr);
+/// `left` after `right` by the algebra of the variable between them, written into `result`, which may be one of them.
+/// If the result is normalised by law, what has drifted is divided out.
+void compose(const AnyAlgebra& middle, const AnyRows& left, const AnyRows& right, bool normalized, AnyRows& result);
 Table composed(const AnyAlgebra& middle, const AnyRows& left, const Table& right, bool normalized);
 
 /// The logarithms of a belief one relation further, which are none of `result`. Throws std::domain_error if nothing is

@@ -165,7 +165,6 @@ namespace detail {
 
 AnyEntries entries_of(const AnyRows& rows, std::size_t r);
 std::span<double> values_of(AnyRows& rows, std::size_t r);
-std::size_t offset_of(const AnyRows& rows, std::size_t r);
 Table dense_row(const AnyRows& rows, std::size_t r);
 std::vector<double> column_of(const AnyRows& rows, std::size_t column);
 bool same_numbers(const AnyRows& a, const AnyRows& b);

@@ -1,11 +1,11 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <utility>
 #include <vector>
 
-#include <sigmax/core/kernels/compose.hpp>
 #include <sigmax/core/rows.hpp>
 #include <sigmax/core/scaled_number.hpp>
 #include <sigmax/core/uncertainty.hpp>
@@ -19,6 +19,19 @@ using sigmax::detail::AnyAlgebra;
 struct Evidence {
   std::span<const ScaledNumber> numbers;
   std::span<const double> logs_or_plain;
+};
+
+/// The winners of one relation of a chain, for every number of a row. Where ⊗ scales, the first index that attains the
+/// number, 0 if none does. Else all indices that attained more than those before them, and what they attained: a later
+/// minimum may make any of them a tie.
+struct Winners {
+  using Index = std::uint32_t;  // because routes through long chains store many
+  struct Attempt {
+    Index index;
+    double value;
+  };
+  std::vector<Index> first;
+  std::vector<std::vector<Attempt>> attempts;
 };
 
 /// A row of numbers that never underflow, however many tables it passes through.
