@@ -12,7 +12,8 @@
 
 namespace sigmax::detail {
 
-/// An assignment that grows row by row, with potentials that prove it to be optimal, and its alternating paths.
+/// The assignment of least cost, by successive shortest paths (Jonker and Volgenant, Computing 38, 1987), and its
+/// alternating paths. It grows row by row, with potentials that prove it to be optimal.
 ///
 /// A node is a row that is to leave what it has, or `outside`, where free columns are and rows without one. A path goes
 /// from a row to whoever has the column that the row takes; from outside to a row whose column stays free. Lengths are

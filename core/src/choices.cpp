@@ -1,8 +1,6 @@
 #include <sigmax/core/choices.hpp>
 
 #include <algorithm>
-#include <cmath>
-#include <sstream>
 #include <stdexcept>
 #include <string>
 
@@ -32,27 +30,6 @@ void Choices::clear() {
   values_.clear();
   none_.clear();
   width_ = 0;
-}
-
-void check::choices(const Choices& choices, double excluded, std::string_view name) {
-  const auto refuse = [&](std::size_t row, const std::string& column, double value) {
-    if (std::isfinite(value) || value == excluded) return;
-    std::ostringstream text;
-    text << name << " of row " << row << " and " << column << " is " << value << "; expected a finite number or "
-         << excluded;
-    throw std::invalid_argument(text.str());
-  };
-  for (std::size_t row = 0; row < choices.rows(); ++row) {
-    refuse(row, "no column", choices.none(row));
-    const auto entries = choices.entries(row);
-    for (std::size_t k = 0; k < entries.size(); ++k)
-      refuse(row, "column " + std::to_string(entries.index(k)), entries.value(k));
-  }
-}
-
-void check::no_column_left(std::size_t row) {
-  throw std::domain_error("row " + std::to_string(row) +
-                          " finds no column that earlier rows can leave to it, and may not be without one");
 }
 
 }  // namespace sigmax

@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <string>
 
-#include <sigmax/core/assignment.hpp>
+#include <sigmax/core/matching.hpp>
 
 #include "points.hpp"
 
@@ -43,16 +43,16 @@ Gospa best(const PointSet& truth, const PointSet& estimates, const GospaSettings
   for (const auto* points : {&truth, &estimates})
     for (const auto& point : *points) detail::check_point(point, first.front().size());
   const double none = std::pow(settings.cutoff, settings.order);
-  Choices costs;
+  Choices savings;
   for (const auto& target : truth) {
-    costs.add_row(none);
+    savings.add_row(0.0);
     for (std::size_t j = 0; j < estimates.size(); ++j)
       if (const double d = detail::distance(target, estimates[j]); d < settings.cutoff)
-        costs.add(j, std::pow(d, settings.order));
+        savings.add(j, none - std::pow(d, settings.order));
   }
   Gospa result;
   std::size_t pairs = 0;
-  for (const std::size_t j : assign(costs).columns) {
+  for (const std::size_t j : match<Fuzzy, Fuzzy>(savings, {.marginals = false}).best) {
     auto& estimate = result.estimate_of.emplace_back();
     if (j == no_column) continue;
     estimate = j;

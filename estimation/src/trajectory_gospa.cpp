@@ -2,14 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
-#include <numeric>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <utility>
 
-#include <sigmax/core/assignment.hpp>
+#include <boost/pending/disjoint_sets.hpp>
+
+#include <sigmax/core/matching.hpp>
 
 #include "points.hpp"
 
@@ -38,22 +39,18 @@ struct Close {
 };
 
 /// Splits pairs into groups that share no trajectory; trajectories are numbers below `size`.
-std::map<int, std::vector<Close>> connected(std::span<const Close> pairs, std::size_t size) {
-  std::vector<int> parent(size);
-  std::iota(parent.begin(), parent.end(), 0);
-  const auto root = [&](int i) {
-    while (parent[at(i)] != i) i = parent[at(i)] = parent[at(parent[at(i)])];
-    return i;
-  };
-  for (const Close& pair : pairs) parent[at(root(pair.track))] = root(pair.target);
-  std::map<int, std::vector<Close>> groups;
-  for (const Close& pair : pairs) groups[root(pair.target)].push_back(pair);
+std::map<std::size_t, std::vector<Close>> connected(std::span<const Close> pairs, std::size_t size) {
+  boost::disjoint_sets_with_storage<> sets(size);
+  for (const Close& pair : pairs) sets.union_set(at(pair.target), at(pair.track));
+  std::map<std::size_t, std::vector<Close>> groups;
+  for (const Close& pair : pairs) groups[sets.find_set(at(pair.target))].push_back(pair);
   return groups;
 }
 
 /// A sequence of assignments: the last one, and what all cost, less what it costs to assign nothing.
 struct State {
   Partners partners;
+  std::set<int> taken{};  ///< tracks of this scan that later targets are close to as well
   double localisation = 0.0, cost = 0.0;
   std::size_t pairs = 0, half_switches = 0;
 };
@@ -67,23 +64,32 @@ class Cluster {
     states_.push_back({Partners(trajectories, fresh)});
   }
 
-  /// One connected group of a scan.
+  /// One connected group of a scan, target by target: each takes a track, or none.
   void decide(std::span<const Close> group) {
-    options_.clear();
-    for (const Close& pair : group) {
-      if (options_.empty() || options_.back().front().target != pair.target) options_.emplace_back();
-      options_.back().push_back(pair);
+    Choices savings;
+    for (std::size_t k = 0; k < group.size(); ++k) {
+      if (k == 0 || group[k].target != group[k - 1].target) savings.add_row(0.0);
+      savings.add(at(group[k].track), pair_ - group[k].cost);
     }
-    gains_.assign(options_.size() + 1, 0.0);
-    for (std::size_t n = options_.size(); n-- > 0;)
-      gains_[n] = gains_[n + 1] + pair_ - std::ranges::min(options_[n], {}, &Close::cost).cost;
-    for (const State& state : states_) {
-      limit_ = std::numeric_limits<double>::infinity();
-      reach(likely(state));
-      trials_ = 100 * max_states_ / states_.size();
-      choose(0, state);
+    // The logarithm of a max-marginal is what is lost by a choice. A state that loses more than nine half switches a
+    // target never pays: compared with the best pairs of this scan, and with switches to those pairs and back.
+    const Choices losses = match<Fuzzy, Fuzzy>(savings).marginals;
+    const double limit = -9.0 * half_switch_ * static_cast<double>(losses.rows());
+    for (std::size_t row = 0; row < losses.rows(); ++row) {
+      const auto logs = losses.entries(row).values;
+      const auto pairs = group.subspan(losses.offset(row), logs.size());
+      const auto later = group.subspan(losses.offset(row) + logs.size());
+      std::vector<State> next;
+      for (const State& state : states_) {
+        const std::size_t before = next.size();
+        for (std::size_t k = 0; k < pairs.size(); ++k)
+          if (logs[k] >= limit && !state.taken.contains(pairs[k].track)) next.push_back(with(state, pairs[k]));
+        if (losses.none(row) >= limit || next.size() == before) next.push_back(state);
+      }
+      for (State& state : next)
+        std::erase_if(state.taken, [&](int track) { return std::ranges::count(later, track, &Close::track) == 0; });
+      keep_what_may_win(std::move(next));
     }
-    keep_what_may_win();
   }
 
   const State& best() const { return states_.front(); }
@@ -91,7 +97,8 @@ class Cluster {
 
  private:
   State with(State state, const Close& pair) const {
-    auto& [partners, localisation, cost, pairs, half_switches] = state;
+    auto& [partners, taken, localisation, cost, pairs, half_switches] = state;
+    taken.insert(pair.track);
     localisation += pair.cost;
     ++pairs;
     if (partners[at(pair.target)] != pair.track) {
@@ -108,81 +115,34 @@ class Cluster {
     return state;
   }
 
-  /// What follows a state if each new pair were three half switches: often the best.
-  State likely(State state) const {
-    Choices costs;
-    for (const auto& options : options_) {
-      costs.add_row(pair_);
-      for (const Close& pair : options)
-        costs.add(at(pair.track),
-                  pair.cost + (state.partners[at(pair.target)] == pair.track ? 0.0 : 3.0 * half_switch_));
-    }
-    const auto columns = assign(costs).columns;
-    for (std::size_t n = 0; n < columns.size(); ++n)
-      for (const Close& pair : options_[n])
-        if (at(pair.track) == columns[n]) state = with(std::move(state), pair);
-    return state;
-  }
-
-  /// Tries all that the n-th target may do, after those before it, whose tracks are taken.
-  void choose(std::size_t n, const State& state) {
-    if (state.cost - gains_[n] >= limit_) return;
-    if (trials_ == 0) exact_ = false;
-    if (trials_ == 0) return;
-    --trials_;
-    if (n == options_.size()) return reach(state);
-    for (const Close& pair : options_[n]) {
-      if (std::ranges::count(taken_, pair.track) > 0) continue;
-      taken_.push_back(pair.track);
-      choose(n + 1, with(state, pair));
-      taken_.pop_back();
-    }
-    choose(n + 1, state);
-  }
-
-  void reach(const State& state) {
-    // Two assignments that follow one differ by at most six half switches a target; see `half_switches`.
-    limit_ = std::min(limit_, state.cost + 6.0 * half_switch_ * static_cast<double>(options_.size()));
-    const auto [place, is_new] = reached_.try_emplace(state.partners, state);
-    if (!is_new && state.cost < place->second.cost) place->second = state;
-  }
-
-  /// Drops assignments that a cheaper one reaches by switches, and still is not dearer, whatever comes.
-  void keep_what_may_win() {
-    std::vector<const State*> by_cost;
-    for (const auto& [partners, state] : reached_) by_cost.push_back(&state);
-    std::ranges::stable_sort(by_cost, {}, &State::cost);
+  /// Drops what a cheaper state can turn into by switches, and still is not dearer, whatever comes.
+  void keep_what_may_win(std::vector<State> states) {
+    std::ranges::stable_sort(states, {}, &State::cost);
     states_.clear();
-    for (const State* state : by_cost) {
+    for (State& state : states) {
       const auto beats = [&](const State& other) {
-        return other.cost + half_switch_ * half_switches(other.partners, state->partners) <= state->cost;
+        return other.cost + half_switch_ * half_switches(other.partners, state.partners) <= state.cost &&
+               std::ranges::includes(state.taken, other.taken);
       };
       if (std::ranges::any_of(states_, beats)) continue;
-      if (states_.size() == max_states_) exact_ = false;
-      if (states_.size() < max_states_) states_.push_back(*state);
+      exact_ = exact_ && states_.size() < max_states_;
+      if (states_.size() == max_states_) break;
+      states_.push_back(std::move(state));
     }
-    reached_.clear();
   }
 
   /// Half switches from one assignment to another, and those that what is fresh there may save later.
   static double half_switches(const Partners& from, const Partners& to) {
-    double result = 0.0;
+    int result = 0;
     for (std::size_t i = 0; i < from.size(); ++i)
-      if (from[i] != to[i]) result += (from[i] >= 0 ? 0.5 : 0.0) + (to[i] >= 0 ? 0.5 : to[i] == fresh ? 1.0 : 0.0);
-    return result;
+      if (from[i] != to[i]) result += (from[i] >= 0 ? 1 : 0) + (to[i] >= 0 ? 1 : to[i] == fresh ? 2 : 0);
+    return 0.5 * result;
   }
 
   double pair_, half_switch_;
   std::size_t max_states_;
   bool exact_ = true;
   std::vector<State> states_;  ///< the cheapest first
-
-  std::vector<std::vector<Close>> options_;  ///< of each target of the group
-  std::vector<double> gains_;                ///< what the n-th target and those after it save at most
-  double limit_ = 0.0;                       ///< what costs as much never pays
-  std::size_t trials_ = 0;                   ///< that are left
-  std::vector<int> taken_;
-  std::map<Partners, State> reached_;
 };
 
 std::size_t count_positions(std::span<const Trajectory> trajectories, std::size_t& coordinates) {

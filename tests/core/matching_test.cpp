@@ -61,7 +61,7 @@ Weights any_weights(bool exact, std::size_t n, std::size_t m) {
   });
 }
 
-/// The definition, by all events one by one; they come in the order that decides ties.
+/// The definition, by all events one by one; they come in the order that decides which one is the best.
 struct Events {
   using Columns = std::vector<std::size_t>;
   struct Event {
@@ -101,11 +101,22 @@ struct Events {
     return *std::find_if(events.begin(), events.end(), [&](const Event& e) { return e.log >= greatest - 1e-9L; });
   }
 
+  /// The events that may count for a pattern whose permutation is fuzzy: the best of all, or those of it that tie.
+  std::vector<Event> may_count(const std::vector<Event>& events) const {
+    std::vector<Event> result;
+    for (const Event& event : events) {
+      if (event.columns == best(all).columns) return {event};
+      if (event.log >= best(events).log - 1e-9L) result.push_back(event);
+    }
+    return result;
+  }
+
   /// The ⊕ over patterns of the ⊕ over their events, of all and of each row → column, divided by the best event. Where
-  /// kinds differ and the permutation is fuzzy, a pattern has its best event only.
+  /// kinds differ and the permutation is fuzzy, a pattern has one event only. If several may count, this is the most
+  /// that a row → column can have, or the least.
   using Key = std::pair<std::size_t, std::size_t>;
   static constexpr Key total{none, none};
-  std::map<Key, long double> sums(By outer, By inner) const {
+  std::map<Key, long double> sums(By outer, By inner, bool most) const {
     std::map<Key, long double> result;
     const auto add = [](By by, long double& sum, long double number) {
       sum = by == By::sum ? sum + number : std::max(sum, number);
@@ -113,13 +124,19 @@ struct Events {
     const long double top = best(all).log;
     for (const auto& [pattern, events] : of_pattern) {
       std::map<Key, long double> within;
+      std::map<Key, std::size_t> counts;
       const bool selects = outer == By::sum && inner == By::max;
-      for (const Event& event : selects ? std::vector{best(events)} : events) {
-        add(inner, within[total], std::exp(event.log - top));
-        for (std::size_t row = 0; row < event.columns.size(); ++row)
-          add(inner, within[{row, event.columns[row]}], std::exp(event.log - top));
+      const std::vector<Event> counted = selects ? may_count(events) : events;
+      for (const Event& event : counted) {
+        std::vector<Key> keys{total};
+        for (std::size_t row = 0; row < event.columns.size(); ++row) keys.emplace_back(row, event.columns[row]);
+        for (const Key& key : keys) {
+          add(inner, within[key], std::exp(event.log - top));
+          ++counts[key];
+        }
       }
-      for (const auto& [key, number] : within) add(outer, result[key], number);
+      for (const auto& [key, number] : within)
+        if (!selects || most || counts[key] == counted.size()) add(outer, result[key], number);
     }
     return result;
   }
@@ -157,28 +174,33 @@ TYPED_PROPERTY(Matchings, AreWhatAllEventsSay) {
     return;
   }
   const auto outer = by<typename TypeParam::Pattern>, inner = by<typename TypeParam::Permutation>;
-  auto sums = events.sums(outer, inner);
+  auto least = events.sums(outer, inner, false), most = events.sums(outer, inner, true);
   const Matching found = TypeParam::match(choices);
   const Events::Event& best = Events::best(events.all);
   RC_ASSERT(found.exact);
   RC_ASSERT(found.best == best.columns);
   require_near(found.log_best, static_cast<double>(best.log), 1e-12);
-  require_near(found.log_total, static_cast<double>(best.log + std::log(sums[Events::total])), 1e-12);
+  require_near(found.log_total, static_cast<double>(best.log + std::log(most[Events::total])), 1e-12);
   for (std::size_t row = 0; row < n; ++row) {
-    Events::Columns columns{none};
+    Events::Columns columns;
     for (const std::uint32_t column : choices.entries(row).columns) columns.push_back(column);
-    std::vector<long double> numbers;
-    for (const std::size_t column : columns) numbers.push_back(sums[{row, column}]);
-    const long double own = plain::eliminate(outer, numbers), greatest = plain::eliminate(By::max, numbers);
+    columns.push_back(none);
+    std::vector<long double> numbers, greatest;
+    for (const std::size_t column : columns) greatest.push_back(most[{row, column}]);
+    const long double own = outer == By::sum ? most[Events::total] : plain::eliminate(outer, greatest);
     for (std::size_t k = 0; k < columns.size(); ++k) {
-      const double log = k == 0 ? found.marginals.none(row) : found.marginals.entries(row).value(k - 1);
-      require_near(log, static_cast<double>(std::log(numbers[k] / own)), 1e-12);
+      const double log = columns[k] == none ? found.marginals.none(row) : found.marginals.entries(row).value(k);
+      const auto bound = [&](long double sum) { return static_cast<double>(std::log(sum / own)); };
+      require_near(log, std::clamp(log, bound(least[{row, columns[k]}]), bound(greatest[k])), 1e-12);
+      numbers.push_back(std::exp(static_cast<long double>(log)));
     }
+    require_near(static_cast<double>(plain::eliminate(outer, numbers)), 1.0, 1e-12);
     // The winner has the greatest marginal; if several tie it is the best event's, otherwise the first of them.
-    std::rotate(columns.begin(), columns.begin() + 1, columns.end());
-    const auto wins = [&](std::size_t column) { return sums[{row, column}] >= greatest * (1.0L - 1e-9L); };
-    RC_ASSERT(found.winners[row] ==
-              (wins(best.columns[row]) ? best.columns[row] : *std::find_if(columns.begin(), columns.end(), wins)));
+    Events::Columns winners;
+    for (std::size_t k = 0; k < columns.size(); ++k)
+      if (numbers[k] >= plain::eliminate(By::max, numbers) * (1.0L - 1e-9L)) winners.push_back(columns[k]);
+    const bool best_wins = std::ranges::count(winners, best.columns[row]) > 0;
+    RC_ASSERT(found.winners[row] == (best_wins ? best.columns[row] : winners.front()));
   }
 }
 
@@ -315,7 +337,16 @@ TEST(Matching, NamesTheRowThatFindsNothing) {
   EXPECT_REFUSED(std::domain_error, ("row 2"), match<Random, Random>(weights));
   weights.add_row(not_a_number);
   EXPECT_INVALID(("log weight", "row 3", "no column", "nan"), match<Random, Random>(weights));
+  weights.clear();
+  weights.add_row(0.0, {{3, infinity}});
+  EXPECT_INVALID(("log weight", "row 0", "column 3", "inf"), match<Fuzzy, Fuzzy>(weights));
   EXPECT_EQ((match<Random, Random>(Choices{}).log_total), 0.0);
+}
+
+TEST(Choices, RefuseColumnsThatDoNotAscend) {
+  Choices choices;
+  EXPECT_INVALID(("no row"), choices.add(0, 1.0));
+  EXPECT_INVALID(("row 0", "ascend", "1 follows 1"), choices.add_row(0.0, {{1, 0.0}, {1, 0.0}}));
 }
 
 TEST(Matching, LeavesMaxMarginalsOutIfNobodyWantsThem) {

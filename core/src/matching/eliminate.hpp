@@ -1,5 +1,6 @@
 #pragma once
 
+#include <set>
 #include <vector>
 
 #include <sigmax/core/scaled_number.hpp>
@@ -31,13 +32,17 @@ struct Plus {
 template <class Outer, class Inner>
 class Elimination {
  public:
-  Elimination(const EventChain& chain, std::vector<ScaledNumber> weights, Outer outer, Inner inner, bool selects)
-      : chain_(chain), weights_(std::move(weights)), outer_{outer}, inner_{inner}, selects_(selects) {
+  Elimination(const EventChain& chain, std::vector<ScaledNumber> weights, const std::vector<bool>& in_best, Outer outer,
+              Inner inner, bool selects)
+      : chain_(chain),
+        weights_(std::move(weights)),
+        in_best_(in_best),
+        outer_{outer},
+        inner_{inner},
+        selects_(selects) {
     const std::size_t links = chain.links().size() - 1;
     states_.resize(links + 1);
-    orders_.resize(links + 1);
     states_[0] = {ScaledNumber(1.0)};
-    orders_[0] = {0};
     at_joint_.resize(links);
     chosen_.resize(links);
     for (std::size_t t = 0; t < links; ++t) forward(t, no_column);
@@ -68,10 +73,8 @@ class Elimination {
   std::vector<ScaledNumber> marginals_one_by_one() {
     std::vector<ScaledNumber> result(weights_.size());
     for (std::size_t t = at_joint_.size(); t-- > 0;) {
-      std::vector<std::uint32_t> choices;
-      for (const auto& way : chain_.ways(t)) choices.push_back(way.choice);
-      std::sort(choices.begin(), choices.end());
-      choices.erase(std::unique(choices.begin(), choices.end()), choices.end());
+      std::set<std::uint32_t> choices;
+      for (const auto& way : chain_.ways(t)) choices.insert(way.choice);
       for (const std::uint32_t choice : choices) {
         for (std::size_t next = t; next < at_joint_.size(); ++next) forward(next, next == t ? choice : no_column);
         result[choice] = total();
@@ -88,7 +91,6 @@ class Elimination {
     std::vector<ScaledNumber>& at_joint = at_joint_[t];
     at_joint.assign(joints.size(), {});
     chosen_[t].assign(selects_ ? joints.size() : 0, 0);
-    std::vector<std::uint64_t> order(chosen_[t].size());
     for (std::uint32_t w = 0; w < ways.size(); ++w) {
       const auto [from, choice, joint] = ways[w];
       if (only != no_column && choice != only) continue;
@@ -99,31 +101,22 @@ class Elimination {
         continue;
       }
       constexpr ScaledNumber more(1.0 + tie_tolerance);
-      const std::uint64_t place = orders_[t][from] + chain_.order(choice);
-      if (number > best * more || (number * more >= best && place < order[joint])) {
+      if (number > best * more || (in_best_[choice] && number * more >= best)) {
         best = number;
-        order[joint] = place;
         chosen_[t][joint] = w;
       }
     }
-    const std::size_t size = chain_.links()[t].states;
-    states_[t + 1].assign(size, {});
+    states_[t + 1].assign(chain_.links()[t].states, {});
     for (std::size_t joint = 0; joint < joints.size(); ++joint) outer_(states_[t + 1][joints[joint]], at_joint[joint]);
-    if (!selects_) return;
-    orders_[t + 1].assign(size, ~std::uint64_t{0});
-    for (std::size_t joint = 0; joint < joints.size(); ++joint) {
-      std::uint64_t& first = orders_[t + 1][joints[joint]];
-      first = std::min(first, order[joint]);
-    }
   }
 
   const EventChain& chain_;
   std::vector<ScaledNumber> weights_;
+  const std::vector<bool>& in_best_;  // whether the best event has a choice
   Plus<Outer> outer_;
   Plus<Inner> inner_;
   bool selects_;
   std::vector<std::vector<ScaledNumber>> states_, at_joint_;
-  std::vector<std::vector<std::uint64_t>> orders_;  // of the first of the selected events of a state
   std::vector<std::vector<std::uint32_t>> chosen_;  // the way to each joint that was selected
 };
 
@@ -131,17 +124,21 @@ class Elimination {
 inline EventTotals eliminate(const EventChain& chain, const Choices& costs, const AlternatingPaths& paths,
                              const AnyAlgebra& pattern, const AnyAlgebra& permutation) {
   std::vector<ScaledNumber> weights(costs.size() + costs.rows());  // of the best event each is one
+  std::vector<bool> in_best(weights.size());
   for (std::size_t row = 0; row < costs.rows(); ++row) {
     const double chosen = paths.cost(row);
     const auto entries = costs.entries(row);
-    for (std::size_t k = 0; k < entries.size(); ++k)
+    for (std::size_t k = 0; k < entries.size(); ++k) {
       weights[costs.offset(row) + k] = ScaledNumber::exp(chosen - entries.value(k));
+      in_best[costs.offset(row) + k] = entries.index(k) == paths.choice(row);
+    }
     weights[costs.size() + row] = ScaledNumber::exp(chosen - costs.none(row));
+    in_best[costs.size() + row] = paths.choice(row) == no_column;
   }
   const bool differ = &pattern != &permutation, selects = differ && permutation.selective;
   return with_scaling(pattern, [&](auto outer) {
     return with_scaling(permutation, [&](auto inner) {
-      Elimination elimination(chain, weights, outer, inner, selects);
+      Elimination elimination(chain, weights, in_best, outer, inner, selects);
       const Plus<decltype(outer)> plus{outer};
       EventTotals result{elimination.total().log(), {}};
       const std::vector<ScaledNumber> marginals =

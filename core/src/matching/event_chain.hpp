@@ -9,9 +9,9 @@
 #include <utility>
 #include <vector>
 
-#include <sigmax/core/choices.hpp>
+#include <boost/pending/disjoint_sets.hpp>
 
-#include "../disjoint_sets.hpp"
+#include <sigmax/core/choices.hpp>
 
 namespace sigmax::detail {
 
@@ -82,7 +82,6 @@ class EventChain {
   bool build(const Choices& choices, bool keep_patterns, std::size_t max_states) {
     const std::size_t n = choices.rows(), m = choices.columns();
     order_rows(choices);
-    order_.assign(choices.size() + n, 0);
     if (keep_patterns) find_regions(choices);
     const auto within = [&](std::size_t row, std::size_t column) {
       return keep_patterns && region_[row] == region_[n + column];
@@ -163,8 +162,6 @@ class EventChain {
   std::span<const std::uint32_t> joints(std::size_t link) const {
     return {joints_.data() + links_[link].joints, links_[link + 1].joints - links_[link].joints};
   }
-  /// Of each choice a number whose sum orders the events of one pattern: the first has the least.
-  std::uint64_t order(std::size_t choice) const { return order_[choice]; }
 
  private:
   /// The next row shares a column with those before, and adds the fewest columns that are wanted still.
@@ -194,7 +191,7 @@ class EventChain {
     }
   }
 
-  /// Rows and columns that cycles link, by the fundamental cycles of a spanning tree; and the order of events in them.
+  /// Rows and columns that cycles link, by the fundamental cycles of a spanning tree.
   void find_regions(const Choices& choices) {
     const std::size_t n = choices.rows(), nodes = n + choices.columns();
     std::vector<std::vector<std::size_t>> next(nodes);
@@ -212,32 +209,22 @@ class EventChain {
           parent[node] = queue[at];
           queue.push_back(node);
         }
-    DisjointSets sets(nodes);
+    boost::disjoint_sets_with_storage<> sets(nodes);
     for (std::size_t row = 0; row < n; ++row)
       for (const std::size_t column : next[row]) {
         if (parent[column] == row || parent[row] == column) continue;
         for (std::size_t a = row, b = column; a != b; a = parent[a]) {
           if (depth[a] < depth[b]) std::swap(a, b);
-          sets.join(a, parent[a]);
+          sets.union_set(a, parent[a]);
         }
       }
     region_.resize(nodes);
-    std::vector<std::uint64_t> digit(nodes, 0);
-    for (std::size_t node = 0; node < nodes; ++node) region_[node] = sets.find(node);
-    // Rows are digits, the first row the greatest, and columns their values; all regions together stay below 2^62.
-    for (std::size_t row = 0; row < n; ++row) digit[region_[row]] = (std::uint64_t{1} << 62) / n;
-    for (std::size_t row = 0; row < n; ++row) {
-      const std::size_t degree = next[row].size();
-      if (degree > 0) digit[region_[row]] /= degree;
-      for (std::size_t k = 0; k < degree; ++k)
-        if (region_[next[row][k]] == region_[row]) order_[choices.offset(row) + k] = k * digit[region_[row]];
-    }
+    for (std::size_t node = 0; node < nodes; ++node) region_[node] = sets.find_set(node);
   }
 
   std::vector<Link> links_;
   std::vector<Way> ways_;
   std::vector<std::uint32_t> joints_;
-  std::vector<std::uint64_t> order_;
   std::vector<std::size_t> rows_, region_;  // rows in the order of links; the region of each row, then of each column
 };
 

@@ -3,16 +3,34 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <stdexcept>
+#include <string>
+
+#include <boost/pending/disjoint_sets.hpp>
 
 #include <sigmax/core/logarithm.hpp>
 #include <sigmax/core/tie.hpp>
 
-#include "../disjoint_sets.hpp"
 #include "approximate.hpp"
 
 namespace sigmax::detail {
 
 namespace {
+
+/// Throws std::invalid_argument for NaN and +∞.
+void check_weights(const Choices& log_weights) {
+  const auto check = [](std::size_t row, const std::string& column, double value) {
+    if (!(value < -log_zero))
+      throw std::invalid_argument("the log weight of row " + std::to_string(row) + " and " + column + " is " +
+                                  std::to_string(value) + "; expected a finite number or -inf");
+  };
+  for (std::size_t row = 0; row < log_weights.rows(); ++row) {
+    check(row, "no column", log_weights.none(row));
+    const auto entries = log_weights.entries(row);
+    for (std::size_t k = 0; k < entries.size(); ++k)
+      check(row, "column " + std::to_string(entries.index(k)), entries.value(k));
+  }
+}
 
 /// Works cluster by cluster: rows that share columns, directly or by others.
 class Matcher {
@@ -26,14 +44,14 @@ class Matcher {
 
   Matching run() {
     const std::size_t rows = weights_.rows();
-    DisjointSets sets(rows + weights_.columns());
+    boost::disjoint_sets_with_storage<> sets(rows + weights_.columns());
     for (std::size_t row = 0; row < rows; ++row) {
       const auto entries = weights_.entries(row);
       for (std::size_t k = 0; k < entries.size(); ++k)
-        if (entries.value(k) > log_zero) sets.join(rows + entries.index(k), row);
+        if (entries.value(k) > log_zero) sets.union_set(rows + entries.index(k), row);
     }
     std::vector<std::pair<std::size_t, std::size_t>> by_cluster(rows);
-    for (std::size_t row = 0; row < rows; ++row) by_cluster[row] = {sets.find(row), row};
+    for (std::size_t row = 0; row < rows; ++row) by_cluster[row] = {sets.find_set(row), row};
     std::sort(by_cluster.begin(), by_cluster.end());
     for (std::size_t first = 0, end = 0; first < rows; first = end) {
       rows_.clear();
@@ -77,7 +95,9 @@ class Matcher {
   }
 
   void find_best() {
-    if (const std::size_t failed = paths_.assign(costs_); failed != no_column) check::no_column_left(rows_[failed]);
+    if (const std::size_t failed = paths_.assign(costs_); failed != no_column)
+      throw std::domain_error("row " + std::to_string(rows_[failed]) +
+                              " finds no column that earlier rows can leave to it, and may not be without one");
     for (std::size_t row = 0; row < rows_.size(); ++row) {
       logs_.push_back(-paths_.cost(row));
       const std::size_t column = paths_.choice(row);
@@ -134,7 +154,7 @@ class Matcher {
 
 Matching match(const Choices& log_weights, const AnyAlgebra& pattern, const AnyAlgebra& permutation,
                const MatchingOptions& options) {
-  check::choices(log_weights, log_zero, "the log weight");
+  check_weights(log_weights);
   return Matcher(log_weights, pattern, permutation, options).run();
 }
 

@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <limits>
 #include <span>
-#include <string_view>
 #include <vector>
 
 #include <sigmax/core/table.hpp>
@@ -14,12 +13,11 @@ namespace sigmax {
 /// What a row has that takes no column.
 inline constexpr std::size_t no_column = std::numeric_limits<std::size_t>::max();
 
-/// What rows may choose: each row some columns, with a number each, or no column, with a number, too. In an assignment
-/// the numbers are costs, in a matching logarithms of weights. Rows are sparse: a column that is not listed is
-/// excluded.
+/// What rows may choose: each row some columns, with a number each, or no column, with a number, too. In a
+/// matching the numbers are logarithms of weights. Rows are sparse: a column that is not listed is excluded.
 ///
-///     Choices costs;
-///     costs.add_row(9.0, {{0, 1.5}, {2, 4.0}});   // row 0: column 0 at 1.5, column 2 at 4, none at 9
+///     Choices log_weights;
+///     log_weights.add_row(0.0, {{0, 1.5}, {2, 4.0}});   // row 0: column 0 at 1.5, column 2 at 4, none at 0
 class Choices {
  public:
   struct Entry {
@@ -61,15 +59,5 @@ class Choices {
   std::vector<double> values_, none_;
   std::size_t width_ = 0;
 };
-
-namespace check {
-
-/// Every number is finite or `excluded`, an infinity. Throws std::invalid_argument that names row, column and value.
-void choices(const Choices& choices, double excluded, std::string_view name);
-
-/// Throws std::domain_error: rows before this one need the columns that it might take, and it may not be without one.
-[[noreturn]] void no_column_left(std::size_t row);
-
-}  // namespace check
 
 }  // namespace sigmax

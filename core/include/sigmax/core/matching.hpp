@@ -53,16 +53,17 @@ Matching match(const Choices& log_weights, const AnyAlgebra& pattern, const AnyA
 ///
 /// The result is exact: a forward–backward pass over the rows of each cluster of rows that share columns. A state is
 /// the set of used columns that later rows want. Where the kinds differ it keeps the pattern as well, within cycles of
-/// rows and columns. Fuzzy with fuzzy is exact at any size: the best event by `assign`, max-marginals by shortest
-/// alternating paths.
+/// rows and columns. Fuzzy with fuzzy is exact at any size: the best event by successive
+/// shortest paths, max-marginals by shortest alternating paths.
 ///
 /// A cluster that needs more than `max_states` is approximated, and `exact` is false. If the kinds differ, the ⊕ of the
 /// pattern eliminates permutations as well. If a sum still takes too many states, messages are passed (Williams and
 /// Lau, IEEE Trans. AES 50, 2014); on trees they are exact.
 ///
-/// Events tie within `tie_tolerance`. Of all events, or of those of one pattern, the one counts that gives the first
-/// row the first column, then the second row, and so on; no column comes last. The winner of a row is its choice in the
-/// best event if that ties with the greatest marginal; otherwise the first choice that ties.
+/// Events tie within `tie_tolerance`. The best event is the one that gives the first row the first column, then the
+/// second row, and so on; no column comes last. Of events of one pattern that tie the best event counts, or else any
+/// one. The winner of a row is its choice in the best event if that ties with the greatest marginal; otherwise the
+/// first choice that ties.
 ///
 /// Throws std::invalid_argument for NaN and +∞, std::domain_error, naming a row, if there is no event at all.
 template <ScalableUncertainty Pattern, ScalableUncertainty Permutation>
