@@ -31,7 +31,6 @@
 #include <sigmax/estimation/jacobian.hpp>
 #include <sigmax/estimation/kalman.hpp>
 #include <sigmax/estimation/known_turn.hpp>
-#include <sigmax/estimation/linearised.hpp>
 #include <sigmax/estimation/member.hpp>
 #include <sigmax/estimation/metrics.hpp>
 #include <sigmax/estimation/model.hpp>

@@ -1,6 +1,6 @@
 // Over 1,000 runs matched to their model, mean NEES and NIS of every member lie inside their 95 % band.
 
-#include "support/sigmax.hpp"
+#include "support/linearised.hpp"
 
 namespace member_consistency_test {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "support/sigmax.hpp"
+#include "support/linearised.hpp"
 
 namespace sigmax::support {
 

@@ -1,4 +1,4 @@
-#include "support/sigmax.hpp"
+#include "support/linearised.hpp"
 
 namespace nonlinear_motion_test {
 

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "support/linearised.hpp"
 #include "support/nonlinear_restatement.hpp"
-#include "support/sigmax.hpp"
 
 /// Models of any size, drawn, as the restatement has them and as a user gives them to the library.
 namespace sigmax::support {

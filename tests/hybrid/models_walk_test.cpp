@@ -1,6 +1,6 @@
 // The code of docs/models.md, and the values that it claims.
 
-#include "support/sigmax.hpp"
+#include "support/linearised.hpp"
 
 namespace models_walk_test {
 

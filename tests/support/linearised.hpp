@@ -1,6 +1,6 @@
 #pragma once
 
-#include <sigmax/estimation/kalman.hpp>
+#include "support/sigmax.hpp"
 
 namespace sigmax {
 
