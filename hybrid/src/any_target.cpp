@@ -17,15 +17,11 @@ namespace {
 /// The start rule of a choice: an estimate for each model, or nothing as long as it wants more detections.
 class ChosenStart {
  public:
-  ChosenStart(const TargetChoice& choice, const std::vector<AnyModel>& models)
-      : choice_(choice), nowhere_(detail::anywhere(models)) {}
+  explicit ChosenStart(const TargetChoice& choice) : choice_(choice) {}
 
   std::optional<StartAt<Estimates>> operator()(std::span<const Detection> detections, std::size_t starts) const {
     return choice_.start == StartRule::given && starts == 0 ? given(detections) : from_points(detections);
   }
-
-  /// An estimate of its size for every model, without meaning: what a filter holds before it starts.
-  const Estimates& nowhere() const { return nowhere_; }
 
  private:
   /// From the last three positions at different times.
@@ -48,7 +44,7 @@ class ChosenStart {
     const detail::View wide{wide_mean, wide_covariance, 3 * axes}, narrow{narrow_mean, narrow_covariance, 2 * axes};
     (released ? detail::released_start : detail::three_point_start)(view(3), view(2), view(1), wide);
     detail::two_point_start(view(2), view(1), narrow);
-    return leading(points.back().first, wide, released ? wide : narrow);
+    return StartAt<Estimates>{points.back().first, detail::chosen_start(choice_, wide, released ? wide : narrow)};
   }
 
   /// From those seen from different places, as many as the models need, in the plane.
@@ -65,16 +61,7 @@ class ChosenStart {
     const detail::View wide{wide_mean, wide_covariance, 6}, narrow{narrow_mean, narrow_covariance, 4};
     if (!detail::crossed_bearings_start(bearings, narrow)) return std::nullopt;
     if (accelerates && !detail::crossed_bearings_start(bearings, wide)) return std::nullopt;
-    return leading(bearings.back().time, wide, narrow);
-  }
-
-  /// Each model has the leading components of the one that is wide, if it needs them all, or else of the narrow one.
-  StartAt<Estimates> leading(double time, const EstimateAt<double>& wide, const EstimateAt<double>& narrow) const {
-    return {time, detail::estimates_from(choice_, nowhere_, [&](int n, EstimateAt<double>& own) {
-              const auto& from = n == wide.size() ? wide : narrow;
-              own.mean.head(n) = from.mean.head(n);
-              own.covariance.topLeftCorner(n, n) = from.covariance.topLeftCorner(n, n);
-            })};
+    return StartAt<Estimates>{bearings.back().time, detail::chosen_start(choice_, wide, narrow)};
   }
 
   /// A given start without a time waits for the second detection: it is one step before the first.
@@ -89,33 +76,22 @@ class ChosenStart {
       covariance[k + k * n] = choice_.start_covariance_diagonal[place];
     }
     const detail::View all{mean, covariance, n};
-    StartAt<Estimates> start = leading(time, all, all);
-    start.from_detections = false;
-    return start;
+    return StartAt<Estimates>{time, detail::chosen_start(choice_, all, all), false};
   }
 
   TargetChoice choice_;
-  Estimates nowhere_;
 };
 
 template <ScalableUncertainty Kind>
 struct Followed {
-  std::unique_ptr<MultipleModelFilter<Kind>> filter;
+  std::function<MultipleModelFilter<Kind>&()> filter;
   detail::TrackManager<Kind> life;
 
-  Followed(const TargetChoice& choice, const std::vector<AnyModel>& models, const ChosenStart& start)
-      : filter(detail::chosen_filter<Kind>(choice, models, start.nowhere())), life(*filter, start, choice.rules) {}
-  Followed(const Followed& other) : filter(other.filter->clone()), life(other.life) {}
+  explicit Followed(const TargetChoice& choice)
+      : filter(detail::chosen_filter<Kind>(choice)), life(filter(), ChosenStart(choice), choice.rules) {}
 };
 
 using AnyFollowed = std::variant<Followed<Random>, Followed<Fuzzy>>;
-
-AnyFollowed followed(const TargetChoice& choice) {
-  const std::vector<AnyModel> models = detail::chosen_models(choice);
-  const ChosenStart start(choice, models);
-  if (choice.fuzzy) return AnyFollowed(std::in_place_index<1>, choice, models, start);
-  return AnyFollowed(std::in_place_index<0>, choice, models, start);
-}
 
 }  // namespace
 
@@ -126,7 +102,9 @@ struct AnyTarget::Chosen {
   bool compared = false;  ///< whether the last step had a measurement, taken or not
 
   explicit Chosen(const TargetChoice& choice)
-      : followed(sigmax::followed(choice)), axes(choice.axes), most_likely_output(choice.most_likely_output) {}
+      : followed(choice.fuzzy ? AnyFollowed(Followed<Fuzzy>(choice)) : Followed<Random>(choice)),
+        axes(choice.axes),
+        most_likely_output(choice.most_likely_output) {}
 
   /// act(filter and life).
   template <class Act>
@@ -139,43 +117,37 @@ struct AnyTarget::Chosen {
   }
 };
 
-AnyTarget::AnyTarget(const TargetChoice& choice) : chosen_(std::make_unique<Chosen>(detail::checked(choice))) {}
-AnyTarget::AnyTarget(const AnyTarget& other) : chosen_(std::make_unique<Chosen>(*other.chosen_)) {}
-AnyTarget::AnyTarget(AnyTarget&&) noexcept = default;
-AnyTarget& AnyTarget::operator=(AnyTarget other) noexcept {
-  chosen_ = std::move(other.chosen_);
-  return *this;
-}
-AnyTarget::~AnyTarget() = default;
+AnyTarget::AnyTarget(const TargetChoice& choice)
+    : chosen_([chosen = Chosen(detail::checked(choice))]() mutable -> Chosen& { return chosen; }) {}
 
 Verdict AnyTarget::take(const AnyDetection& detection, const Stepped& stepped) {
-  const Detection own = detail::chosen_detection(detection, chosen_->axes);
-  return chosen_->visit([&](auto& target) {
-    return target.life.take(*target.filter, own, [&](const Detection& taken, bool is_start) {
-      chosen_->compared = !is_start && taken.seen();
+  const Detection own = detail::chosen_detection(detection, chosen_().axes);
+  return chosen_().visit([&](auto& target) {
+    return target.life.take(target.filter(), own, [&](const Detection& taken, bool is_start) {
+      chosen_().compared = !is_start && taken.seen();
       if (stepped) stepped(taken.tag, is_start);
     });
   });
 }
 
-bool AnyTarget::running() const { return chosen_->now().running; }
-std::size_t AnyTarget::starts() const { return chosen_->now().starts; }
-std::size_t AnyTarget::rejected() const { return chosen_->now().rejected; }
-double AnyTarget::time() const { return chosen_->now().time; }
-double AnyTarget::accepted_time() const { return chosen_->now().accepted_time; }
+bool AnyTarget::running() const { return chosen_().now().running; }
+std::size_t AnyTarget::starts() const { return chosen_().now().starts; }
+std::size_t AnyTarget::rejected() const { return chosen_().now().rejected; }
+double AnyTarget::time() const { return chosen_().now().time; }
+double AnyTarget::accepted_time() const { return chosen_().now().accepted_time; }
 const std::vector<std::string>& AnyTarget::components() const {
-  return chosen_->visit([](const auto& target) -> const auto& { return target.filter->components(); });
+  return chosen_().visit([](const auto& target) -> const auto& { return target.filter().components(); });
 }
 
 bool AnyTarget::transform(std::span<const double> A, std::span<const double> b) {
-  const int axes = chosen_->axes;
+  const int axes = chosen_().axes;
   const auto n = static_cast<std::size_t>(axes);
   if (A.size() != n * n || b.size() != n)
     throw std::invalid_argument("a transformation of " + std::to_string(axes) + " axes has as many rows and columns");
   const SquareMatrix<Eigen::Dynamic, 3> by_columns =
       Eigen::Map<const Eigen::MatrixXd>(A.data(), axes, axes).transpose();
-  return chosen_->visit(
-      [&](auto& target) { return target.life.transform(*target.filter, by_columns.data(), b.data(), axes); });
+  return chosen_().visit(
+      [&](auto& target) { return target.life.transform(target.filter(), by_columns.data(), b.data(), axes); });
 }
 
 TargetPoint AnyTarget::output() const {
@@ -185,28 +157,28 @@ TargetPoint AnyTarget::output() const {
 }
 
 void AnyTarget::output(TargetPoint& result) const {
-  chosen_->visit([&](const auto& target) {
-    const auto& filter = *target.filter;
+  chosen_().visit([&](const auto& target) {
+    const auto& filter = target.filter();
     result.time = target.life.now().time;
     double numbers[max_measurement_size];
     const int m = filter.accepted() ? filter.normalized_innovation(numbers) : 0;
     result.normalized_innovation.assign(numbers, numbers + m);
     result.nis = filter.accepted() ? std::optional(filter.nis()) : std::nullopt;
-    result.log_evidence = chosen_->compared ? std::optional(filter.log_evidence()) : std::nullopt;
-    result.log_score = chosen_->compared ? std::optional(filter.log_score()) : std::nullopt;
-    detail::tell(filter, filter.state(), chosen_->most_likely_output, result);
+    result.log_evidence = chosen_().compared ? std::optional(filter.log_evidence()) : std::nullopt;
+    result.log_score = chosen_().compared ? std::optional(filter.log_score()) : std::nullopt;
+    detail::tell(filter, filter.state(), chosen_().most_likely_output, result);
   });
 }
 
 void AnyTarget::smoothed(const std::function<void(const TargetPoint&)>& visit) const {
-  chosen_->visit([&](const auto& target) {
+  chosen_().visit([&](const auto& target) {
     TargetPoint point;
-    target.life.smoothed(*target.filter, [&](const auto& kept, const auto& state) {
+    target.life.smoothed(target.filter(), [&](const auto& kept, const auto& state) {
       point.time = kept.time;
       point.tag = kept.tag;
       point.is_start = kept.is_start;
       point.nis = kept.nis;
-      detail::tell(*target.filter, state, chosen_->most_likely_output, point);
+      detail::tell(target.filter(), state, chosen_().most_likely_output, point);
       visit(point);
     });
   });
@@ -214,7 +186,7 @@ void AnyTarget::smoothed(const std::function<void(const TargetPoint&)>& visit) c
 
 std::vector<ModeStay> AnyTarget::explained() const {
   std::vector<ModeStay> stays;
-  chosen_->visit([&](const auto& target) {
+  chosen_().visit([&](const auto& target) {
     target.life.explained([&](const auto& kept, std::size_t mode) {
       stays.push_back({kept.time, kept.tag, mode, kept.is_start});
     });

@@ -1,5 +1,6 @@
 #include "chosen.hpp"
 
+#include <numbers>
 #include <stdexcept>
 #include <string>
 
@@ -76,36 +77,48 @@ const TargetChoice& checked(const TargetChoice& choice) {
   return choice;
 }
 
-std::vector<AnyModel> chosen_models(const TargetChoice& choice) {
+template <ScalableUncertainty Kind>
+std::function<MultipleModelFilter<Kind>&()> chosen_filter(const TargetChoice& choice) {
+  using Filter = MultipleModelFilter<Kind>;
   std::vector<AnyModel> models;
   for (const auto& motion : choice.motions) models.push_back(known_model(motion, choice.axes, choice.member));
-  return models;
-}
-
-template <ScalableUncertainty Kind>
-std::unique_ptr<MultipleModelFilter<Kind>> chosen_filter(const TargetChoice& choice,
-                                                         const std::vector<AnyModel>& models,
-                                                         const Estimates& nowhere) {
+  const Estimates nowhere = anywhere(models);
   const auto interaction = chosen_interaction<Kind>(choice);
   const auto transition = chosen_transition<Kind>(choice);
-  if (choice.scheme == Scheme::histories) {
-    const HistoryRules<Kind> rules{.histories = choice.histories, .cut = choice.cut, .tempering = choice.tempering};
-    return std::make_unique<HistoriesOfModes<Kind>>(models, transition, nowhere, rules, interaction);
-  }
+  const HistoryRules<Kind> rules{.histories = choice.histories, .cut = choice.cut, .tempering = choice.tempering};
+  if (choice.scheme == Scheme::histories)
+    return [own = HistoriesOfModes<Kind>(models, transition, nowhere, rules, interaction)]() mutable -> Filter& {
+      return own;
+    };
   if (choice.scheme == Scheme::second_order)
-    return std::make_unique<SecondOrderFilter<Kind>>(models, transition, nowhere, interaction);
-  return std::make_unique<InteractingFilter<Kind>>(models, transition, nowhere, interaction);
+    return
+        [own = SecondOrderFilter<Kind>(models, transition, nowhere, interaction)]() mutable -> Filter& { return own; };
+  return [own = InteractingFilter<Kind>(models, transition, nowhere, interaction)]() mutable -> Filter& { return own; };
 }
 
-template std::unique_ptr<MultipleModelFilter<Random>> chosen_filter(const TargetChoice&, const std::vector<AnyModel>&,
-                                                                    const Estimates&);
-template std::unique_ptr<MultipleModelFilter<Fuzzy>> chosen_filter(const TargetChoice&, const std::vector<AnyModel>&,
-                                                                   const Estimates&);
+template std::function<MultipleModelFilter<Random>&()> chosen_filter(const TargetChoice&);
+template std::function<MultipleModelFilter<Fuzzy>&()> chosen_filter(const TargetChoice&);
 
 Detection chosen_detection(const AnyDetection& detection, int axes) {
   if (detection.sensor == AnyDetection::Sensor::none) return Detection(detection.time, detection.tag);
   return Detection(detection.time, ConstView{detection.z.data(), detection.covariance.data(), detection.size},
                    chosen_sensor(detection, axes), detection.tag);
+}
+
+Estimates chosen_start(const TargetChoice& choice, ConstView wide, ConstView narrow) {
+  const double sigma_turn = choice.start_sigma_turn_deg_s * std::numbers::pi / 180.0;
+  Estimates result;
+  for (const MotionChoice& each : choice.motions) {
+    const KnownMotion& motion = each.known();
+    const int n = motion.derivatives * choice.axes;
+    const EstimateAt<const double> from(n == wide.n ? wide : narrow);
+    result.add(motion.linear ? n : n + 1);
+    auto own = result[result.size() - 1];
+    own.mean.head(n) = from.mean.head(n);
+    own.covariance.topLeftCorner(n, n) = from.covariance.topLeftCorner(n, n);
+    if (!motion.linear) own.covariance(n, n) = sigma_turn * sigma_turn;
+  }
+  return result;
 }
 
 }  // namespace sigmax::detail

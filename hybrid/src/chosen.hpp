@@ -1,9 +1,6 @@
 #pragma once
 
-#include <memory>
-#include <numbers>
-#include <optional>
-#include <vector>
+#include <functional>
 
 #include <sigmax/hybrid/any_target.hpp>
 #include <sigmax/hybrid/detection.hpp>
@@ -15,33 +12,17 @@ namespace sigmax::detail {
 /// The choice. Throws std::invalid_argument, saying what, if it makes no sense.
 const TargetChoice& checked(const TargetChoice& choice);
 
-std::vector<AnyModel> chosen_models(const TargetChoice& choice);
-
-/// The filter of a choice; what it holds before it starts means nothing.
+/// The filter of a choice: what the function returns is inside it, and copied with it. What it holds before it starts
+/// means nothing.
 template <ScalableUncertainty Kind>
-std::unique_ptr<MultipleModelFilter<Kind>> chosen_filter(const TargetChoice& choice,
-                                                         const std::vector<AnyModel>& models, const Estimates& nowhere);
+std::function<MultipleModelFilter<Kind>&()> chosen_filter(const TargetChoice& choice);
 
 /// A detection with its sensor. Throws std::invalid_argument if its numbers do not fit the sensor.
 Detection chosen_detection(const AnyDetection& detection, int axes);
 
-/// An estimate of each model: its n leading components are written by leading(n, own), of zeros, and a rate of turn
-/// behind them, which no start tells, is that of the choice. `nowhere` has the sizes.
-template <class Leading>
-Estimates estimates_from(const TargetChoice& choice, const Estimates& nowhere, const Leading& leading) {
-  const double sigma_turn = choice.start_sigma_turn_deg_s * std::numbers::pi / 180.0;
-  Estimates result = nowhere;
-  for (std::size_t j = 0; j < result.size(); ++j) {
-    const KnownMotion& motion = choice.motions[j].known();
-    const int n = motion.derivatives * choice.axes;
-    auto own = result[j];
-    own.mean.setZero();
-    own.covariance.setZero();
-    leading(n, own);
-    if (!motion.linear) own.covariance(n, n) = sigma_turn * sigma_turn;
-  }
-  return result;
-}
+/// An estimate of each model: it has the leading components of `wide`, if it needs them all, or else of `narrow`. A
+/// rate of turn behind them, which no start tells, is that of the choice.
+Estimates chosen_start(const TargetChoice& choice, ConstView wide, ConstView narrow);
 
 /// Writes the output of a state, the filter's own or another.
 template <ScalableUncertainty Kind>

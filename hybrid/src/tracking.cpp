@@ -12,15 +12,6 @@
 namespace sigmax::detail {
 namespace {
 
-template <ScalableUncertainty Pattern>
-DetectionWeights weights_of(const MultiTargetRules& rules) {
-  if (AlgebraOf<Pattern>::selective && rules.detection_possibilities) {
-    const auto [missed, detected] = *rules.detection_possibilities;
-    return {std::log(missed), std::log(detected)};
-  }
-  return DetectionWeights::of<Pattern>(rules.detection_probability, rules.gate_probability);
-}
-
 /// The tracker of a kind of mode and a kind of pattern. One filter serves all tracks: a hypothesis is a step from the
 /// state of a track.
 template <ScalableUncertainty Kind, ScalableUncertainty Pattern>
@@ -29,28 +20,31 @@ class Tracks final : public Tracking {
   using State = HybridEstimate<Kind>;
 
  public:
-  Tracks(const TargetChoice& choice, const AssociationChoice& kinds, const MultiTargetRules& rules)
-      : Tracking(choice, rules),
-        nowhere_(anywhere(models_)),
-        filter_(chosen_filter<Kind>(choice, models_, nowhere_)),
+  Tracks(const TargetChoice& a_choice, const AssociationChoice& kinds, const MultiTargetRules& some)
+      : Tracking(a_choice, some),
+        filter_(chosen_filter<Kind>(choice)),
         match_(kinds.fuzzy_permutation ? &sigmax::match<Pattern, Fuzzy> : &sigmax::match<Pattern, Random>),
-        weights_(weights_of<Pattern>(rules)),
-        mixed_(filter_->state()) {}
-  std::unique_ptr<Tracking> clone() const override { return std::make_unique<Tracks>(*this); }
-  const std::vector<std::string>& components() const override { return filter_->components(); }
+        weights_(DetectionWeights::of<Pattern>(rules.detection_probability, rules.gate_probability)),
+        mixed_(filter_().state()) {
+    if (A::selective && rules.detection_possibilities)
+      weights_ = {std::log((*rules.detection_possibilities)[0]), std::log((*rules.detection_possibilities)[1])};
+  }
 
-  std::vector<TrackedTarget> tracks(std::optional<double> time) const override {
-    const OwnFilter filter = filter_;
+  const std::vector<std::string>& components() const override { return filter_().components(); }
+
+  std::vector<TrackedTarget> tracks(std::optional<double> at) const override {
+    const auto own = filter_;  // a copy, with a state of its own
+    MultipleModelFilter<Kind>& filter = own();
     std::vector<TrackedTarget> result;
     for (const Track& track : tracks_) {
       const double presence = track.existence.presence();
       TargetPoint point;
-      point.time = time ? std::max(*time, track.time) : track.time;
+      point.time = at ? std::max(*at, track.time) : track.time;
       point.tag = track.tag;
       point.is_start = track.detected == 1;
-      filter->restore(track.state);
-      if (point.time > track.time) filter->step(point.time - track.time);
-      tell(*filter, filter->state(), choice_.most_likely_output, point);
+      filter.restore(track.state);
+      if (point.time > track.time) filter.step(point.time - track.time);
+      tell(filter, filter.state(), choice.most_likely_output, point);
       result.push_back({track.number, std::move(point), presence, track.existence.necessity(),
                         track.confirmed && presence >= 0.5, track.first_time, track.detected});
     }
@@ -58,8 +52,6 @@ class Tracks final : public Tracking {
   }
 
  private:
-  static constexpr std::size_t none = no_column;
-
   struct Track {
     std::size_t number;
     State state;
@@ -67,257 +59,212 @@ class Tracks final : public Tracking {
     Existence<Pattern> existence;
     double first_time;
     std::size_t tag;
-    bool confirmed = false, ended = false;
+    State missed;  ///< without a detection, at the end of the scan
+    bool confirmed = false;
     std::size_t scans = 0;  ///< after the first
     std::size_t detected = 1;
-    std::size_t missed = 0;  ///< scans in a row without a detection
+    std::size_t misses = 0;  ///< scans in a row without a detection
     std::size_t shared = 0;  ///< scans in a row with a detection that an older track has, too
   };
 
-  struct OwnFilter : std::unique_ptr<MultipleModelFilter<Kind>> {
-    using Pointer = std::unique_ptr<MultipleModelFilter<Kind>>;
-    OwnFilter(Pointer filter) : Pointer(std::move(filter)) {}
-    OwnFilter(const OwnFilter& other) : Pointer(other->clone()) {}
-  };
-
-  /// What a track is if a detection of the scan is its own, or none.
+  /// What a track is if a detection is its own, or none; given that the target exists.
   struct Hypothesis {
-    std::size_t spot;
-    State state;
-    double time;
-    double log_weight;  ///< after the matching, given that the target exists
+    State* state;
+    double time, log_weight;
   };
 
-  void take_scan() override {
-    const auto survival = Existence<Pattern>::survival(std::pow(rules_.survival_per_s, elapsed_));
+  void take_scan(double elapsed) override {
+    const auto survival = Existence<Pattern>::survival(std::pow(rules.survival_per_s, elapsed));
     problem_.clear();
-    rows_.clear();
-    used_ = 0;
     for (Track& track : tracks_) {
       track.existence.predict(survival);
       add_row(track);
     }
-    rows_.push_back(used_);
-    if (!tracks_.empty()) {
-      const Matching matching = match_(problem_, {});
-      exact_ = exact_ && matching.exact;
-      for (std::size_t row = 0; row < tracks_.size(); ++row) update(row, matching);
-    }
-    for (Spot& spot : spots_) {
-      clutter_.add_unexplained(spot.type, std::max(1.0 - spot.explained_by_confirmed, 0.0));
-      if (spot.explained >= rules_.explained) continue;
+    const Matching matching = match_(problem_, {});
+    exact = exact && matching.exact;
+    for (std::size_t row = 0; row < tracks_.size(); ++row) update(row, matching);
+    for (Spot& spot : spots) {
+      spot.clutter->unexplained += std::max(1.0 - spot.explained_by_confirmed, 0.0);
+      if (spot.explained >= rules.explained) continue;
       spot.owner = {spot.owner.tag, {}};
-      if (spot.placed) begin(spot);
+      if (spot.position) begin(spot);
     }
     std::erase_if(tracks_, [&](const Track& track) {
       const double presence = track.existence.presence();
-      return track.ended || presence < rules_.deletion || track.shared >= rules_.duplicate_scans ||
-             (!track.confirmed && track.scans >= rules_.tentative_scans && presence < 0.5);
+      return presence <= rules.deletion || track.shared >= rules.duplicate_scans ||
+             (!track.confirmed && track.scans >= rules.tentative_scans && presence < 0.5);
     });
   }
 
   /// The hypotheses of a track, and their weights in the matching.
-  void add_row(const Track& track) {
-    rows_.push_back(used_);
+  void add_row(Track& track) {
     // P_D = 1 of a target that certainly exists leaves no event without a detection, but data may.
     problem_.add_row(std::max(track.existence.log_none(weights_), -1e3));
-    Box hull;
-    const double first = spots_.empty() ? time_ : std::max(spots_.front().detection.time, track.time);
-    if (!step(track, time_) || !expected(hull, time_ - first)) return;
-    keep(none, time_);
-    boxes_.overlapping(hull, found_);
+    if (spots.empty() || !step(track, time)) return;
+    const MultipleModelFilter<Kind>& filter = filter_();
+    track.missed = filter.state();
+    overlapping(expected(time - std::max(spots.front().detection.time, track.time)), found_);
     const double log_detected = track.existence.log_presence() + weights_.log_detected;
     for (const std::size_t i : found_) {
-      const Spot& spot = spots_[i];
+      const Spot& spot = spots[i];
       if (spot.detection.time < track.time || !step(track, spot.detection.time, &spot)) continue;
-      if (!(filter_->gate_distance() <= spot.limit)) continue;
-      const double log_weight = log_detected + filter_->log_evidence() - spot.log_clutter;
+      const double log_weight = log_detected + filter.log_evidence() - spot.clutter->log_weight;
       if (!std::isfinite(log_weight)) continue;
+      if (states_.size() == problem_.size()) states_.push_back(mixed_);
+      states_[problem_.size()] = filter.state();
       problem_.add(i, log_weight);
-      keep(i, spot.detection.time);
     }
   }
 
-  /// A step of the filter from a track to a time that is not earlier, or false where its numbers do not allow it.
-  bool step(const Track& track, double time, const Spot* spot = nullptr) {
-    const Seen seen = spot ? spot->seen() : Seen{};
-    filter_->restore(track.state);
+  /// A step of the filter from a track to a time that is not earlier; false where its numbers or the gate forbid it.
+  bool step(const Track& track, double to, const Spot* spot = nullptr) {
+    MultipleModelFilter<Kind>& filter = filter_();
+    filter.restore(track.state);
     try {
-      filter_->step(time - track.time, spot ? &seen : nullptr);
+      const Seen seen = spot ? Seen{spot->detection.measurement(), sensor_of_models(spot->detection.sensor())} : Seen{};
+      filter.step(to - track.time, spot ? &seen : nullptr, gate);
+      return !spot || filter.accepted();
     } catch (const std::domain_error&) {
       return false;
     }
-    return true;
   }
 
-  void keep(std::size_t spot, double time) {
-    if (used_ == hypotheses_.size()) hypotheses_.push_back({spot, filter_->state(), time, log_zero});
-    Hypothesis& hypothesis = hypotheses_[used_++];
-    hypothesis.spot = spot;
-    hypothesis.state = filter_->state();
-    hypothesis.time = time;
-  }
-
-  /// Where a detection may be that passes the gate, from `duration` before the filter's time on; false if nowhere. It
-  /// passes if −2 log ⊕ w exp(−d²/2) does, and one of so many modes has as much but for their number.
-  bool expected(Box& hull, double duration) const {
-    std::array<double, 3> least{}, greatest{};
-    bool any = false;
-    for (std::size_t j = 0; j < filter_->modes(); ++j) {
-      const double limit =
-          greatest_limit_ + 2.0 * (filter_->belief().log(j) + std::log(static_cast<double>(filter_->modes())));
+  /// Where a detection may be that passes the gate, from `duration` before the filter's time on. It passes if −2 log ⊕
+  /// w exp(−d²/2) does, and one of so many modes has as much but for their number.
+  Box expected(double duration) const {
+    const MultipleModelFilter<Kind>& filter = filter_();
+    const auto modes = static_cast<double>(filter.modes());
+    const Eigen::Index axes = choice.axes;
+    Box box;
+    for (std::size_t j = 0; j < filter.modes(); ++j) {
+      const double limit = greatest_limit + 2.0 * (filter.belief().log(j) + std::log(modes));
       if (!(limit > 0.0)) continue;
-      const ConstView estimate = std::as_const(filter_->estimates()).view(j);
-      for (int axis = 0; axis < choice_.axes; ++axis) {
-        const auto derivative = [&](int order) {
-          const int place = axis + order * choice_.axes;
-          return estimate.n >= (order + 1) * choice_.axes ? estimate.mean[place] : 0.0;
-        };
-        const double at = derivative(0), ago = at - duration * (derivative(1) - 0.5 * duration * derivative(2));
-        const double half = std::sqrt(limit * std::max(estimate.covariance[axis + axis * estimate.n], 0.0));
-        double &low = least[static_cast<std::size_t>(axis)], &high = greatest[static_cast<std::size_t>(axis)];
-        low = std::min(any ? low : at, std::min(at, ago) - half);
-        high = std::max(any ? high : at, std::max(at, ago) + half);
-      }
-      any = true;
+      const auto own = filter.estimates()[j];
+      Eigen::Vector3d at = Eigen::Vector3d::Zero(), half = at;
+      at.head(axes) = own.mean.head(axes);
+      half.head(axes) = (limit * own.covariance.diagonal().head(axes).cwiseMax(0.0)).cwiseSqrt();
+      Eigen::Vector3d ago = at;
+      if (own.size() >= 2 * axes) ago.head(axes) -= duration * own.mean.segment(axes, axes);
+      if (own.size() >= 3 * axes) ago.head(axes) += 0.5 * duration * duration * own.mean.segment(2 * axes, axes);
+      box.extend(at.cwiseMin(ago) - half).extend(at.cwiseMax(ago) + half);
     }
-    for (std::size_t axis = 0; axis < least.size(); ++axis) {
-      hull.half[axis] = 0.5 * (greatest[axis] - least[axis]);
-      hull.at[axis] = std::isfinite(hull.half[axis]) ? least[axis] + hull.half[axis] : 0.0;
-    }
-    return any;
+    return box;
   }
 
   /// A track after the scan, by the marginals of its row.
   void update(std::size_t row, const Matching& matching) {
     Track& track = tracks_[row];
     ++track.scans;
-    const std::span of_row(hypotheses_.data() + rows_[row], rows_[row + 1] - rows_[row]);
     const double log_none = matching.marginals.none(row);
     const auto entries = matching.marginals.entries(row);
     const double log_missed = track.existence.log_missed(weights_, log_none);
     const double log_any = log_total<Pattern>(entries.size(), [&](std::size_t k) { return entries.value(k); });
     if (std::max(log_any, log_missed) == log_zero) {
-      track.ended = true;
+      track.existence = Existence<Pattern>(0.0);
       return;
     }
     track.existence.update(weights_, log_none, log_any);
-    if (track.existence.necessity() >= rules_.confirmation) track.confirmed = confirmed_any_ = true;
-    Hypothesis* best = nullptr;
-    for (std::size_t k = 0; k < of_row.size(); ++k) {
-      Hypothesis& hypothesis = of_row[k];
-      hypothesis.log_weight = hypothesis.spot == none ? log_missed : entries.value(k - 1);
-      if (hypothesis.spot == none) continue;
-      if (!best || hypothesis.log_weight > best->log_weight) best = &hypothesis;
-      explain(hypothesis, track);
+    track.confirmed = track.confirmed || track.existence.necessity() >= rules.confirmation;
+    hypotheses_.clear();
+    for (std::size_t k = 0; k < entries.size(); ++k) {
+      Spot& spot = spots[entries.index(k)];
+      hypotheses_.push_back({&states_[problem_.offset(row) + k], spot.detection.time, entries.value(k)});
+      const double support = std::exp(entries.value(k));
+      spot.explained = A::plus(spot.explained, support);
+      if (track.confirmed) spot.explained_by_confirmed = A::plus(spot.explained_by_confirmed, support);
+      if (!spot.owner.track || support > spot.owner.support) spot.owner = {spot.owner.tag, track.number, support};
     }
+    hypotheses_.push_back({&track.missed, time, log_missed});
+    const std::size_t none = entries.size();
+    std::size_t best = index_of_greatest(entries.values);
+    const auto taken = [&]() -> Spot& { return spots[entries.index(best)]; };
     // Two targets that are close may share a detection, too, but hardly ever have only that one.
-    const bool contended = best && spots_[best->spot].first_taker < row && std::exp(log_none) >= 0.25 &&
-                           best->log_weight >= log_missed - 1.0;
+    const bool contended = best != none && taken().first_taker < row && std::exp(log_none) >= 0.25 &&
+                           entries.value(best) >= log_missed - 1.0;
     track.shared = contended ? track.shared + 1 : 0;
     // Of a target that exists a detection may be the best choice where otherwise it is none.
-    if (const std::size_t winner = matching.winners[row]; winner != none)
-      best = &*std::ranges::find(of_row, winner, &Hypothesis::spot);
-    else if (best && ties(log_missed, best->log_weight))
-      best = nullptr;
-    if (best) {
+    const std::size_t winner = AnyEntries(entries).place_of(matching.winners[row]);
+    if (winner != none || (best != none && ties(log_missed, entries.value(best)))) best = winner;
+    ++track.misses;
+    if (best != none) {
       if (track.confirmed) {
-        looks_ += static_cast<double>(track.missed + 1);
-        detected_ += 1.0;
+        looks += static_cast<double>(track.misses);
+        detected += 1.0;
       }
+      track.misses = 0;
       ++track.detected;
-      Spot& spot = spots_[best->spot];
-      track.tag = spot.owner.tag;
-      spot.first_taker = std::min(spot.first_taker, row);
+      track.tag = taken().owner.tag;
+      taken().first_taker = std::min(taken().first_taker, row);
     }
-    track.missed = best ? 0 : track.missed + 1;
-    if constexpr (A::selective) {
-      if (best) adopt(track, *best);
-    } else {
-      mix(track, of_row);
-    }
-  }
-
-  void explain(const Hypothesis& hypothesis, const Track& track) {
-    Spot& spot = spots_[hypothesis.spot];
-    const double support = std::exp(hypothesis.log_weight);
-    spot.explained = A::plus(spot.explained, support);
-    if (track.confirmed) spot.explained_by_confirmed = A::plus(spot.explained_by_confirmed, support);
-    if (!spot.owner.track || support > spot.owner.support) spot.owner = {spot.owner.tag, track.number, support, false};
-  }
-
-  void adopt(Track& track, Hypothesis& hypothesis) {
-    std::swap(track.state, hypothesis.state);
-    track.time = hypothesis.time;
+    if (A::selective) hypotheses_.assign(1, Hypothesis(hypotheses_[best]));
+    mix(track);
   }
 
   /// The mixture of hypotheses by their weights, moment-matched mode by mode, at the time of the latest of their
   /// detections.
-  void mix(Track& track, std::span<Hypothesis> of_row) {
-    parts_.clear();
+  void mix(Track& track) {
     double greatest = log_zero, latest = track.time;
-    for (const Hypothesis& hypothesis : of_row) greatest = std::max(greatest, hypothesis.log_weight);
-    for (Hypothesis& hypothesis : of_row) {
-      if (hypothesis.log_weight < greatest - 30.0) continue;  // one in 10¹³
-      parts_.push_back(&hypothesis);
-      if (hypothesis.spot != none) latest = std::max(latest, hypothesis.time);
-    }
-    if (parts_.size() < 2) {
-      if (!parts_.empty() && parts_[0]->spot != none) adopt(track, *parts_[0]);
+    for (const Hypothesis& each : hypotheses_) greatest = std::max(greatest, each.log_weight);
+    std::erase_if(hypotheses_, [&](const auto& each) { return each.log_weight < greatest - 30.0; });  // one in 10¹³
+    for (const Hypothesis& each : hypotheses_)
+      if (each.state != &track.missed) latest = std::max(latest, each.time);
+    const Hypothesis& winner = *std::ranges::max_element(hypotheses_, {}, &Hypothesis::log_weight);
+    const std::size_t parts = hypotheses_.size();
+    if (parts == 1) {
+      if (winner.state != &track.missed) {
+        std::swap(track.state, *winner.state);
+        track.time = winner.time;
+      }
       return;
     }
-    for (Hypothesis* part : parts_) {
-      if (part->time == latest) continue;
-      const bool is_none = part->spot == none;
-      filter_->restore(is_none ? track.state : part->state);
-      if (const double dt = latest - (is_none ? track.time : part->time); dt > 0.0) filter_->step(dt);
-      part->state = filter_->state();
+    MultipleModelFilter<Kind>& filter = filter_();
+    for (const Hypothesis& each : hypotheses_) {
+      if (each.time == latest) continue;
+      const bool later = each.time > latest;  // without a detection, from the state again
+      filter.restore(later ? track.state : *each.state);
+      filter.step(latest - (later ? track.time : each.time));
+      *each.state = filter.state();
     }
-    const auto winner = *std::ranges::max_element(parts_, {}, [](const Hypothesis* part) { return part->log_weight; });
-    mixed_ = winner->state;
-    const std::size_t modes = filter_->modes();
-    Parts estimates(static_cast<int>(parts_.size()));
-    OfModes weights(static_cast<int>(parts_.size())), log_weights(static_cast<int>(modes));
+    mixed_ = *winner.state;
+    const std::size_t modes = filter.modes();
+    Parts estimates(static_cast<int>(parts));
+    OfModes weights(static_cast<int>(parts)), log_weights(static_cast<int>(modes));
     for (std::size_t j = 0; j < modes; ++j) {
-      const auto joint = [&](std::size_t k) { return parts_[k]->log_weight + parts_[k]->state.belief.log(j); };
-      const double total = log_total<Pattern>(parts_.size(), joint);
+      const auto joint = [&](std::size_t k) { return hypotheses_[k].log_weight + hypotheses_[k].state->belief.log(j); };
+      const double total = log_total<Pattern>(parts, joint);
       log_weights[j] = total;
-      for (std::size_t k = 0; k < parts_.size(); ++k) {
-        estimates[k] = {std::as_const(parts_[k]->state.estimates).view(j)};
-        weights[k] = total == log_zero ? (parts_[k] == winner) : std::exp(joint(k) - total);
+      for (std::size_t k = 0; k < parts; ++k) {
+        estimates[k] = {std::as_const(hypotheses_[k].state->estimates).view(j)};
+        weights[k] = total == log_zero ? (&hypotheses_[k] == &winner) : std::exp(joint(k) - total);
       }
-      match_moments({estimates[0].estimate, {estimates.data(), parts_.size()}}, weights, weights,
-                    mixed_.estimates.view(j));
+      match_moments({estimates[0].estimate, {estimates.data(), parts}}, weights, weights, mixed_.estimates.view(j));
     }
     const auto log_weight = [&](std::size_t j) { return log_weights[j]; };
     mixed_.belief.assign(log_weight);
     mixed_.most_likely_mode =
-        select(modes, log_weight, winner->state.most_likely_mode, filter_->interaction().output_tie);
+        select(modes, log_weight, winner.state->most_likely_mode, filter.interaction().output_tie);
     std::swap(track.state, mixed_);
     track.time = latest;
   }
 
   /// A track from a detection that nothing explains: at its position, without a velocity.
   void begin(Spot& spot) {
-    const auto position = *spot.detection.position<Eigen::Dynamic>();
-    const int axes = choice_.axes;
-    const double sigma_velocity = 0.5 * rules_.greatest_speed, scale = choice_.entry.root_mean_square();
-    filter_->restart(estimates_from(choice_, nowhere_, [&](int n, EstimateAt<double>& own) {
-      own.mean.head(axes) = position.mean;
-      own.covariance.topLeftCorner(axes, axes) = position.covariance;
-      for (int i = axes; i < n; ++i)
-        own.covariance(i, i) =
-            i < 2 * axes ? sigma_velocity * sigma_velocity : choice_.entry.variance(i % axes == 2 ? "az" : "ax", scale);
-    }));
-    const double time = spot.detection.time;
-    tracks_.push_back(
-        {++born_, filter_->state(), time, Existence<Pattern>(rules_.birth_existence), time, spot.owner.tag});
+    const int axes = choice.axes, n = 3 * axes;
+    const double sigma_velocity = 0.5 * rules.greatest_speed, scale = choice.entry.root_mean_square();
+    Gaussian<Eigen::Dynamic, 9> start{Vector<Eigen::Dynamic, 9>::Zero(n), SquareMatrix<Eigen::Dynamic, 9>::Zero(n, n)};
+    start.mean.head(axes) = spot.position->mean;
+    start.covariance.topLeftCorner(axes, axes) = spot.position->covariance;
+    for (int i = axes; i < n; ++i)
+      start.covariance(i, i) =
+          i < 2 * axes ? sigma_velocity * sigma_velocity : choice.entry.variance(i % axes == 2 ? "az" : "ax", scale);
+    filter_().restart(chosen_start(choice, view(start), view(start)));
+    const State& state = filter_().state();
+    const double at = spot.detection.time;
+    tracks_.push_back({++born_, state, at, Existence<Pattern>(rules.birth_existence), at, spot.owner.tag, state});
     spot.owner = {spot.owner.tag, born_, 0.0, true};
-    if (tracks_.back().existence.necessity() >= rules_.confirmation) tracks_.back().confirmed = confirmed_any_ = true;
   }
 
-  Estimates nowhere_;
-  OwnFilter filter_;
+  std::function<MultipleModelFilter<Kind>&()> filter_;
   Matching (*match_)(const Choices&, const MatchingOptions&);
   DetectionWeights weights_;
   std::vector<Track> tracks_;  ///< in the order of their numbers
@@ -325,28 +272,27 @@ class Tracks final : public Tracking {
   State mixed_;
   // Of the scan in hand:
   Choices problem_;
-  std::vector<Hypothesis> hypotheses_;  ///< keeps its memory; the first `used_` count
-  std::size_t used_ = 0;
-  std::vector<std::size_t> rows_;  ///< where the hypotheses of each track begin
+  std::vector<State> states_;  ///< if an entry of the problem is taken; keeps its memory
   std::vector<std::size_t> found_;
-  std::vector<Hypothesis*> parts_;
+  std::vector<Hypothesis> hypotheses_;  ///< of one track
 };
 
-template <ScalableUncertainty Kind>
-std::unique_ptr<Tracking> tracking_of(const TargetChoice& choice, const AssociationChoice& kinds,
-                                      const MultiTargetRules& rules) {
-  if (kinds.fuzzy_pattern) return std::make_unique<Tracks<Kind, Fuzzy>>(choice, kinds, rules);
-  return std::make_unique<Tracks<Kind, Random>>(choice, kinds, rules);
+template <ScalableUncertainty Kind, ScalableUncertainty Pattern>
+std::function<Tracking&()> tracking_of(const TargetChoice& choice, const AssociationChoice& kinds,
+                                       const MultiTargetRules& rules) {
+  return [tracks = Tracks<Kind, Pattern>(choice, kinds, rules)]() mutable -> Tracking& { return tracks; };
 }
 
 }  // namespace
 
-std::unique_ptr<Tracking> chosen_tracking(const TargetChoice& choice, const AssociationChoice& kinds,
-                                          const MultiTargetRules& rules) {
+std::function<Tracking&()> chosen_tracking(const TargetChoice& choice, const AssociationChoice& kinds,
+                                           const MultiTargetRules& rules) {
   if (choice.scheme == Scheme::histories && !kinds.fuzzy_pattern)
     throw std::invalid_argument("histories of the mode want a fuzzy pattern: a mixture of them has no moments");
-  if (choice.fuzzy) return tracking_of<Fuzzy>(choice, kinds, rules);
-  return tracking_of<Random>(choice, kinds, rules);
+  if (choice.fuzzy && kinds.fuzzy_pattern) return tracking_of<Fuzzy, Fuzzy>(choice, kinds, rules);
+  if (choice.fuzzy) return tracking_of<Fuzzy, Random>(choice, kinds, rules);
+  if (kinds.fuzzy_pattern) return tracking_of<Random, Fuzzy>(choice, kinds, rules);
+  return tracking_of<Random, Random>(choice, kinds, rules);
 }
 
 }  // namespace sigmax::detail

@@ -2,7 +2,6 @@
 
 #include <cstddef>
 #include <functional>
-#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -98,10 +97,6 @@ class AnyTarget {
 
   /// Throws std::invalid_argument, saying what, if the choice makes no sense.
   explicit AnyTarget(const TargetChoice& choice);
-  AnyTarget(const AnyTarget& other);
-  AnyTarget(AnyTarget&&) noexcept;
-  AnyTarget& operator=(AnyTarget other) noexcept;
-  ~AnyTarget();
 
   /// As Target::take. Throws also std::invalid_argument for a detection whose numbers do not fit its sensor.
   Verdict take(const AnyDetection& detection, const Stepped& stepped = {});
@@ -136,7 +131,7 @@ class AnyTarget {
 
  private:
   struct Chosen;
-  std::unique_ptr<Chosen> chosen_;
+  std::function<Chosen&()> chosen_;  ///< what it returns is inside it, and copied with it
 };
 
 }  // namespace sigmax

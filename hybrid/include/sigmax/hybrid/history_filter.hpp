@@ -33,8 +33,6 @@ class HistoriesOfModes : public MultipleModelFilter<Kind> {
                    const HistoryRules<Kind>& rules = {},
                    const Interaction<Kind>& interaction = {StateAugmentation::prior});
 
-  std::unique_ptr<Filter> clone() const override { return std::make_unique<HistoriesOfModes>(*this); }
-
   /// @{
   /// As of the other filters.
   void restore(const State& state) override;

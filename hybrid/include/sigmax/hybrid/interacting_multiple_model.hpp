@@ -24,8 +24,6 @@ class InteractingFilter : public MultipleModelFilter<Kind> {
   InteractingFilter(const std::vector<AnyModel>& models, ModeTransition<Kind> transition, const Estimates& start,
                     const Interaction<Kind>& interaction = {});
 
-  std::unique_ptr<Filter> clone() const override { return std::make_unique<InteractingFilter>(*this); }
-
   void output(const State& state, detail::View result) const override;
   using Filter::output;
 

@@ -2,7 +2,7 @@
 
 #include <array>
 #include <cstddef>
-#include <memory>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -14,7 +14,7 @@
 namespace sigmax {
 
 namespace detail {
-class Tracking;
+struct Tracking;
 }
 
 /// The kinds of the two variables that association eliminates, see `match`: their sums and maxima are what the field
@@ -32,12 +32,12 @@ struct MultiTargetRules {
   /// detections that no confirmed track explains, per volume of all that was measured so far. With
   /// LikelihoodForm::possibility it is the possibility that a detection is false, 1 without a value.
   std::optional<double> clutter_density;
-  double survival_per_s = 0.999;     ///< that a target which exists does so a second later
-  double birth_existence = 0.02;     ///< of a track that begins: a probability, of a fuzzy pattern a possibility
-  double confirmation = 0.95;        ///< a track is confirmed when the necessity of its existence reaches this
-  double deletion = 0.005;           ///< a track ends below this probability, or possibility, of its existence
-  double explained = 0.25;           ///< a detection that tracks explain less than this begins a track
-  double greatest_speed = 300.0;     ///< m/s: two standard deviations of a new track's velocity
+  double survival_per_s = 0.999;  ///< that a target which exists does so a second later
+  double birth_existence = 0.02;  ///< of a track that begins: a probability, of a fuzzy pattern a possibility
+  double confirmation = 0.95;     ///< a track is confirmed when the necessity of its existence reaches this
+  double deletion = 0.005;        ///< a track ends when the probability, or possibility, of its existence falls to this
+  double explained = 0.25;        ///< a detection that tracks explain less than this begins a track
+  double greatest_speed = 300.0;  ///< m/s: two standard deviations of a new track's velocity
   std::size_t duplicate_scans = 4;   ///< after so many scans in a row the younger of two tracks of one target ends
   std::size_t tentative_scans = 10;  ///< a track that was not confirmed after so many ends if its existence is below ½
   /// Possibilities of a target to be missed and to be detected, the greatest of them 1, for a fuzzy pattern; without a
@@ -86,10 +86,6 @@ class MultiTargetTracker {
   /// random pattern: mixtures of histories have no moments that are histories.
   explicit MultiTargetTracker(const TargetChoice& choice, const AssociationChoice& association = {},
                               const MultiTargetRules& rules = {});
-  MultiTargetTracker(const MultiTargetTracker& other);
-  MultiTargetTracker(MultiTargetTracker&&) noexcept;
-  MultiTargetTracker& operator=(MultiTargetTracker other) noexcept;
-  ~MultiTargetTracker();
 
   /// Takes what one sensor saw while it looked at every target once, in any order, each at its own time: one turn of a
   /// radar. A target has at most one detection in it. `AnyDetection::missed(time)` tells only that a scan went on until
@@ -120,7 +116,7 @@ class MultiTargetTracker {
   std::optional<std::string> finding() const;
 
  private:
-  std::unique_ptr<detail::Tracking> tracking_;
+  std::function<detail::Tracking&()> tracking_;  ///< what it returns is inside it, and copied with it
 };
 
 }  // namespace sigmax

@@ -3,7 +3,6 @@
 #include <array>
 #include <cstddef>
 #include <limits>
-#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -88,8 +87,6 @@ class MultipleModelFilter {
   /// The record of the last step for a smoother, with the arguments of that step. A measurement that is not linear is
   /// linearised where its mode predicted it. Throws std::logic_error without a measurement if the step had one.
   RecordedStep<Kind> recorded(double dt, const Seen* seen = nullptr) const;
-
-  virtual std::unique_ptr<MultipleModelFilter> clone() const = 0;
 
   /// The names of all components; components of the largest model lead.
   const std::vector<std::string>& components() const { return components_.names(); }

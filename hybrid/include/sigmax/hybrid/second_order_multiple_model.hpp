@@ -20,8 +20,6 @@ class SecondOrderFilter : public MultipleModelFilter<Kind> {
   SecondOrderFilter(const std::vector<AnyModel>& models, ModeTransition<Kind> transition, const Estimates& start,
                     const Interaction<Kind>& interaction = {});
 
-  std::unique_ptr<Filter> clone() const override { return std::make_unique<SecondOrderFilter>(*this); }
-
  private:
   using Filter::next;
 
