@@ -14,73 +14,69 @@
 namespace sigmax {
 namespace {
 
-/// The start rule of a choice: an estimate for each model, or nothing as long as it wants more detections.
-class ChosenStart {
- public:
-  explicit ChosenStart(const TargetChoice& choice) : choice_(choice) {}
+using Start = std::optional<StartAt<Estimates>>;
 
-  std::optional<StartAt<Estimates>> operator()(std::span<const Detection> detections, std::size_t starts) const {
-    return choice_.start == StartRule::given && starts == 0 ? given(detections) : from_points(detections);
+/// From bearings seen from different places, as many as the models need, in the plane.
+Start start_from_bearings(const TargetChoice& choice, std::span<const Detection> detections) {
+  if (choice.axes != 2) return std::nullopt;
+  std::vector<TimedBearing> bearings;
+  for (const Detection& detection : detections)
+    if (const auto* const sensor = detection.seen() ? detection.sensor().as<BearingSensor>() : nullptr)
+      bearings.push_back({detection.time, sensor->origin(), radians(detection.measurement().mean[0]),
+                          radians(std::sqrt(detection.measurement().covariance[0]))});
+  const bool accelerates =
+      std::ranges::any_of(choice.motions, [](const MotionChoice& motion) { return motion.known().derivatives == 3; });
+  double wide_mean[6], wide_covariance[36], narrow_mean[4], narrow_covariance[16];
+  const detail::View wide{wide_mean, wide_covariance, 6}, narrow{narrow_mean, narrow_covariance, 4};
+  if (!detail::crossed_bearings_start(bearings, narrow)) return std::nullopt;
+  if (accelerates && !detail::crossed_bearings_start(bearings, wide)) return std::nullopt;
+  return StartAt<Estimates>{bearings.back().time, detail::chosen_start(choice, wide, narrow)};
+}
+
+/// From the last three positions at different times.
+Start start_from_points(const TargetChoice& choice, std::span<const Detection> detections) {
+  const int axes = choice.axes;
+  std::vector<std::pair<double, Gaussian<Eigen::Dynamic, 3>>> points;
+  for (const Detection& detection : detections) {
+    const auto position = detection.position<Eigen::Dynamic>();
+    if (!position || position->size() != axes) continue;
+    if (!points.empty() && points.back().first == detection.time) points.pop_back();
+    points.emplace_back(detection.time, *position);
   }
+  if (points.size() < 3) return start_from_bearings(choice, detections);
+  const auto view = [&](std::size_t back) {
+    const auto& [time, position] = points[points.size() - back];
+    return detail::TimedView{time, detail::view(position)};
+  };
+  const bool released = choice.start == StartRule::released;
+  double wide_mean[9], wide_covariance[81], narrow_mean[6], narrow_covariance[36];
+  const detail::View wide{wide_mean, wide_covariance, 3 * axes}, narrow{narrow_mean, narrow_covariance, 2 * axes};
+  (released ? detail::released_start : detail::three_point_start)(view(3), view(2), view(1), wide);
+  detail::two_point_start(view(2), view(1), narrow);
+  return StartAt<Estimates>{points.back().first, detail::chosen_start(choice, wide, released ? wide : narrow)};
+}
 
- private:
-  /// From the last three positions at different times.
-  std::optional<StartAt<Estimates>> from_points(std::span<const Detection> detections) const {
-    const int axes = choice_.axes;
-    std::vector<std::pair<double, Gaussian<Eigen::Dynamic, 3>>> points;
-    for (const Detection& detection : detections) {
-      const auto position = detection.position<Eigen::Dynamic>();
-      if (!position || position->size() != axes) continue;
-      if (!points.empty() && points.back().first == detection.time) points.pop_back();
-      points.emplace_back(detection.time, *position);
-    }
-    if (points.size() < 3) return from_bearings(detections);
-    const auto view = [&](std::size_t back) {
-      const auto& [time, position] = points[points.size() - back];
-      return detail::TimedView{time, detail::view(position)};
-    };
-    const bool released = choice_.start == StartRule::released;
-    double wide_mean[9], wide_covariance[81], narrow_mean[6], narrow_covariance[36];
-    const detail::View wide{wide_mean, wide_covariance, 3 * axes}, narrow{narrow_mean, narrow_covariance, 2 * axes};
-    (released ? detail::released_start : detail::three_point_start)(view(3), view(2), view(1), wide);
-    detail::two_point_start(view(2), view(1), narrow);
-    return StartAt<Estimates>{points.back().first, detail::chosen_start(choice_, wide, released ? wide : narrow)};
+/// A given start without a time waits for the second detection: it is one step before the first.
+Start given_start(const TargetChoice& choice, std::span<const Detection> detections) {
+  if (!choice.start_time_s && detections.size() < 2) return std::nullopt;
+  const double time = choice.start_time_s ? *choice.start_time_s : 2.0 * detections[0].time - detections[1].time;
+  const int n = 3 * choice.axes;
+  double mean[9], covariance[81] = {};
+  for (int k = 0; k < n; ++k) {  // what is given always speaks of three axes
+    const auto place = static_cast<std::size_t>(k / choice.axes * 3 + k % choice.axes);
+    mean[k] = choice.start_mean[place];
+    covariance[k + k * n] = choice.start_covariance_diagonal[place];
   }
+  const detail::View all{mean, covariance, n};
+  return StartAt<Estimates>{time, detail::chosen_start(choice, all, all), false};
+}
 
-  /// From those seen from different places, as many as the models need, in the plane.
-  std::optional<StartAt<Estimates>> from_bearings(std::span<const Detection> detections) const {
-    if (choice_.axes != 2) return std::nullopt;
-    std::vector<TimedBearing> bearings;
-    for (const Detection& detection : detections)
-      if (const auto* const sensor = detection.seen() ? detection.sensor().as<BearingSensor>() : nullptr)
-        bearings.push_back({detection.time, sensor->origin(), radians(detection.measurement().mean[0]),
-                            radians(std::sqrt(detection.measurement().covariance[0]))});
-    const bool accelerates = std::ranges::any_of(
-        choice_.motions, [](const MotionChoice& motion) { return motion.known().derivatives == 3; });
-    double wide_mean[6], wide_covariance[36], narrow_mean[4], narrow_covariance[16];
-    const detail::View wide{wide_mean, wide_covariance, 6}, narrow{narrow_mean, narrow_covariance, 4};
-    if (!detail::crossed_bearings_start(bearings, narrow)) return std::nullopt;
-    if (accelerates && !detail::crossed_bearings_start(bearings, wide)) return std::nullopt;
-    return StartAt<Estimates>{bearings.back().time, detail::chosen_start(choice_, wide, narrow)};
-  }
-
-  /// A given start without a time waits for the second detection: it is one step before the first.
-  std::optional<StartAt<Estimates>> given(std::span<const Detection> detections) const {
-    if (!choice_.start_time_s && detections.size() < 2) return std::nullopt;
-    const double time = choice_.start_time_s ? *choice_.start_time_s : 2.0 * detections[0].time - detections[1].time;
-    const int n = 3 * choice_.axes;
-    double mean[9], covariance[81] = {};
-    for (int k = 0; k < n; ++k) {  // what is given always speaks of three axes
-      const auto place = static_cast<std::size_t>(k / choice_.axes * 3 + k % choice_.axes);
-      mean[k] = choice_.start_mean[place];
-      covariance[k + k * n] = choice_.start_covariance_diagonal[place];
-    }
-    const detail::View all{mean, covariance, n};
-    return StartAt<Estimates>{time, detail::chosen_start(choice_, all, all), false};
-  }
-
-  TargetChoice choice_;
-};
+auto start_rule(const TargetChoice& choice) {
+  return [choice](std::span<const Detection> detections, std::size_t starts) {
+    const bool given = choice.start == StartRule::given && starts == 0;
+    return given ? given_start(choice, detections) : start_from_points(choice, detections);
+  };
+}
 
 template <ScalableUncertainty Kind>
 struct Followed {
@@ -88,7 +84,7 @@ struct Followed {
   detail::TrackManager<Kind> life;
 
   explicit Followed(const TargetChoice& choice)
-      : filter(detail::chosen_filter<Kind>(choice)), life(filter(), ChosenStart(choice), choice.rules) {}
+      : filter(detail::chosen_filter<Kind>(choice)), life(filter(), start_rule(choice), choice.rules) {}
 };
 
 using AnyFollowed = std::variant<Followed<Random>, Followed<Fuzzy>>;
@@ -96,15 +92,9 @@ using AnyFollowed = std::variant<Followed<Random>, Followed<Fuzzy>>;
 }  // namespace
 
 struct AnyTarget::Chosen {
+  TargetChoice choice;
   AnyFollowed followed;
-  int axes;
-  bool most_likely_output;
   bool compared = false;  ///< whether the last step had a measurement, taken or not
-
-  explicit Chosen(const TargetChoice& choice)
-      : followed(choice.fuzzy ? AnyFollowed(Followed<Fuzzy>(choice)) : Followed<Random>(choice)),
-        axes(choice.axes),
-        most_likely_output(choice.most_likely_output) {}
 
   /// act(filter and life).
   template <class Act>
@@ -118,10 +108,11 @@ struct AnyTarget::Chosen {
 };
 
 AnyTarget::AnyTarget(const TargetChoice& choice)
-    : chosen_([chosen = Chosen(detail::checked(choice))]() mutable -> Chosen& { return chosen; }) {}
+    : chosen_(detail::held<Chosen>(
+          Chosen{choice, choice.fuzzy ? AnyFollowed(Followed<Fuzzy>(choice)) : Followed<Random>(choice)})) {}
 
 Verdict AnyTarget::take(const AnyDetection& detection, const Stepped& stepped) {
-  const Detection own = detail::chosen_detection(detection, chosen_().axes);
+  const Detection own = detail::chosen_detection(detection, chosen_().choice.axes);
   return chosen_().visit([&](auto& target) {
     return target.life.take(target.filter(), own, [&](const Detection& taken, bool is_start) {
       chosen_().compared = !is_start && taken.seen();
@@ -140,7 +131,7 @@ const std::vector<std::string>& AnyTarget::components() const {
 }
 
 bool AnyTarget::transform(std::span<const double> A, std::span<const double> b) {
-  const int axes = chosen_().axes;
+  const int axes = chosen_().choice.axes;
   const auto n = static_cast<std::size_t>(axes);
   if (A.size() != n * n || b.size() != n)
     throw std::invalid_argument("a transformation of " + std::to_string(axes) + " axes has as many rows and columns");
@@ -166,7 +157,7 @@ void AnyTarget::output(TargetPoint& result) const {
     result.nis = filter.accepted() ? std::optional(filter.nis()) : std::nullopt;
     result.log_evidence = chosen_().compared ? std::optional(filter.log_evidence()) : std::nullopt;
     result.log_score = chosen_().compared ? std::optional(filter.log_score()) : std::nullopt;
-    detail::tell(filter, filter.state(), chosen_().most_likely_output, result);
+    detail::tell(filter, filter.state(), chosen_().choice.most_likely_output, result);
   });
 }
 
@@ -178,7 +169,7 @@ void AnyTarget::smoothed(const std::function<void(const TargetPoint&)>& visit) c
       point.tag = kept.tag;
       point.is_start = kept.is_start;
       point.nis = kept.nis;
-      detail::tell(target.filter(), state, chosen_().most_likely_output, point);
+      detail::tell(target.filter(), state, chosen_().choice.most_likely_output, point);
       visit(point);
     });
   });

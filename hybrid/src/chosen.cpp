@@ -63,9 +63,7 @@ AnySensor chosen_sensor(const AnyDetection& detection, int axes) {
   return detail::position_sensor(axes);
 }
 
-}  // namespace
-
-const TargetChoice& checked(const TargetChoice& choice) {
+void require_sound(const TargetChoice& choice) {
   if (choice.axes < 1 || choice.axes > 3)
     throw std::invalid_argument("a target along " + std::to_string(choice.axes) + " axes; expected 1, 2 or 3");
   if (choice.motions.empty() || choice.motions.size() != choice.models.size())
@@ -74,12 +72,14 @@ const TargetChoice& checked(const TargetChoice& choice) {
   if (choice.start == StartRule::given &&
       (choice.start_mean.size() != 9 || choice.start_covariance_diagonal.size() != 9))
     throw std::invalid_argument("a given start has nine numbers and nine variances: x, y, z, vx, vy, vz, ax, ay, az");
-  return choice;
 }
+
+}  // namespace
 
 template <ScalableUncertainty Kind>
 std::function<MultipleModelFilter<Kind>&()> chosen_filter(const TargetChoice& choice) {
   using Filter = MultipleModelFilter<Kind>;
+  require_sound(choice);
   std::vector<AnyModel> models;
   for (const auto& motion : choice.motions) models.push_back(known_model(motion, choice.axes, choice.member));
   const Estimates nowhere = anywhere(models);
@@ -87,13 +87,10 @@ std::function<MultipleModelFilter<Kind>&()> chosen_filter(const TargetChoice& ch
   const auto transition = chosen_transition<Kind>(choice);
   const HistoryRules<Kind> rules{.histories = choice.histories, .cut = choice.cut, .tempering = choice.tempering};
   if (choice.scheme == Scheme::histories)
-    return [own = HistoriesOfModes<Kind>(models, transition, nowhere, rules, interaction)]() mutable -> Filter& {
-      return own;
-    };
+    return held<Filter>(HistoriesOfModes<Kind>(models, transition, nowhere, rules, interaction));
   if (choice.scheme == Scheme::second_order)
-    return
-        [own = SecondOrderFilter<Kind>(models, transition, nowhere, interaction)]() mutable -> Filter& { return own; };
-  return [own = InteractingFilter<Kind>(models, transition, nowhere, interaction)]() mutable -> Filter& { return own; };
+    return held<Filter>(SecondOrderFilter<Kind>(models, transition, nowhere, interaction));
+  return held<Filter>(InteractingFilter<Kind>(models, transition, nowhere, interaction));
 }
 
 template std::function<MultipleModelFilter<Random>&()> chosen_filter(const TargetChoice&);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <utility>
 
 #include <sigmax/hybrid/any_target.hpp>
 #include <sigmax/hybrid/detection.hpp>
@@ -9,11 +10,14 @@
 /// What a TargetChoice, and a detection in plain data, become: of one target and of many.
 namespace sigmax::detail {
 
-/// The choice. Throws std::invalid_argument, saying what, if it makes no sense.
-const TargetChoice& checked(const TargetChoice& choice);
+/// A function whose result is inside it, and copied with it.
+template <class Base, class Own>
+std::function<Base&()> held(Own own) {
+  return [own = std::move(own)]() mutable -> Base& { return own; };
+}
 
-/// The filter of a choice: what the function returns is inside it, and copied with it. What it holds before it starts
-/// means nothing.
+/// The filter of a choice, `held`; its state before it starts means nothing. Throws std::invalid_argument, saying what,
+/// if the choice makes no sense.
 template <ScalableUncertainty Kind>
 std::function<MultipleModelFilter<Kind>&()> chosen_filter(const TargetChoice& choice);
 

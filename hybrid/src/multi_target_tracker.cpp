@@ -39,7 +39,7 @@ const MultiTargetRules& checked(const MultiTargetRules& rules) {
 namespace detail {
 
 Tracking::Tracking(const TargetChoice& a_choice, const MultiTargetRules& some)
-    : choice(checked(a_choice)), rules(sigmax::checked(some)), gate(Gate::probability(some.gate_probability)) {}
+    : choice(a_choice), rules(checked(some)), gate(Gate::probability(some.gate_probability)) {}
 
 void Tracking::scan(std::span<const AnyDetection> given) {
   // The order in which detections were given has no meaning, so it has no effect: not even on rounding.

@@ -277,22 +277,16 @@ class Tracks final : public Tracking {
   std::vector<Hypothesis> hypotheses_;  ///< of one track
 };
 
-template <ScalableUncertainty Kind, ScalableUncertainty Pattern>
-std::function<Tracking&()> tracking_of(const TargetChoice& choice, const AssociationChoice& kinds,
-                                       const MultiTargetRules& rules) {
-  return [tracks = Tracks<Kind, Pattern>(choice, kinds, rules)]() mutable -> Tracking& { return tracks; };
-}
-
 }  // namespace
 
 std::function<Tracking&()> chosen_tracking(const TargetChoice& choice, const AssociationChoice& kinds,
                                            const MultiTargetRules& rules) {
   if (choice.scheme == Scheme::histories && !kinds.fuzzy_pattern)
     throw std::invalid_argument("histories of the mode want a fuzzy pattern: a mixture of them has no moments");
-  if (choice.fuzzy && kinds.fuzzy_pattern) return tracking_of<Fuzzy, Fuzzy>(choice, kinds, rules);
-  if (choice.fuzzy) return tracking_of<Fuzzy, Random>(choice, kinds, rules);
-  if (kinds.fuzzy_pattern) return tracking_of<Random, Fuzzy>(choice, kinds, rules);
-  return tracking_of<Random, Random>(choice, kinds, rules);
+  if (choice.fuzzy && kinds.fuzzy_pattern) return held<Tracking>(Tracks<Fuzzy, Fuzzy>(choice, kinds, rules));
+  if (choice.fuzzy) return held<Tracking>(Tracks<Fuzzy, Random>(choice, kinds, rules));
+  if (kinds.fuzzy_pattern) return held<Tracking>(Tracks<Random, Fuzzy>(choice, kinds, rules));
+  return held<Tracking>(Tracks<Random, Random>(choice, kinds, rules));
 }
 
 }  // namespace sigmax::detail

@@ -63,7 +63,7 @@ struct Tracking {
   ~Tracking() = default;
 };
 
-/// The tracker of a choice, with its tracks: what the function returns is inside it, and copied with it.
+/// The tracker of a choice, with its tracks, `held`.
 std::function<Tracking&()> chosen_tracking(const TargetChoice& choice, const AssociationChoice& kinds,
                                            const MultiTargetRules& rules);
 

@@ -46,10 +46,7 @@ class Existence {
   /// How certain presence is: its probability, or one minus the possibility of absence.
   double necessity() const { return AlgebraOf<Kind>::selective ? 1.0 - belief_[0] : belief_[1]; }
 
-  void predict(const Relation<Kind, Kind>& survival) {
-    const Belief<Kind> before = belief_;
-    compose(survival, before, belief_);
-  }
+  void predict(const Relation<Kind, Kind>& survival) { compose(survival, belief_, belief_); }
 
   /// The logarithm of q₀ ⊕ q₁ ⊗ d₀: how much it weighs in the matching that the target has no detection.
   double log_none(const DetectionWeights& weights) const {
