@@ -119,6 +119,7 @@ class ResultTable {
   /// Adds a rule below the rows so far; it is for the terminal only.
   void rule() { rows_.emplace_back(); }
 
+  std::size_t rows() const { return rows_.size(); }
   bool empty() const { return rows_.empty(); }
 
   /// Some rows with the columns of a part, a bit of `ResultColumn::parts`, and another first header.

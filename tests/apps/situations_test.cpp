@@ -1,4 +1,4 @@
-#include "himm_demo/associate/situations.hpp"
+#include "himm_demo/associate/associate.hpp"
 
 #include <sigmax/estimation/root_mean_square.hpp>
 
@@ -6,7 +6,7 @@
 
 namespace situations_test {
 
-constexpr std::array situations = {Situation::crossing,    Situation::parallel, Situation::splitting,
+constexpr std::array all = {Situation::crossing,    Situation::parallel, Situation::splitting,
                                    Situation::manoeuvring, Situation::dense,    Situation::meeting};
 
 /// What depends on the seed: what is seen in a scan, and where everybody is.
@@ -16,7 +16,7 @@ Rows seen(const Scene& scene, std::size_t scan) {
 std::vector<PointSet> truth(const Scene& scene) { return each(scene.truth, &Trajectory::positions); }
 
 TEST(Situations, DependOnTheSeedAlone) {
-  for (const Situation situation : situations) {
+  for (const Situation situation : all) {
     const Scene scene = simulate(situation, 7);
     EXPECT_EQ(seen(scene, 30), seen(simulate(situation, 7), 30));
     EXPECT_EQ(truth(scene), truth(simulate(situation, 7, {0.5, 3.0, 2})));
@@ -26,7 +26,7 @@ TEST(Situations, DependOnTheSeedAlone) {
 
 /// Errors in their standard deviations, shares of detections, and false detections, over 20 seeds.
 TEST(Situations, AreSeenAsToldForEachKindOfSensor) {
-  for (const Situation situation : situations)
+  for (const Situation situation : all)
     for (const int radars : {0, 4}) {
       RootMeanSquare errors;
       double alive = 0.0, detected = 0.0, spurious = 0.0, expected = 0.0;

@@ -6,35 +6,13 @@
 namespace sigmax::apps {
 namespace {
 
-constexpr std::size_t most_printed = 20;  // tracks
-
-/// What became of a confirmed track.
-struct TrackLife {
-  double first_time = nan, last_time = nan;  ///< of its first detection, and of the last scan in which it is shown
-  std::size_t scans = 0, detected = 0;       ///< since it is confirmed; and in all in which it had a detection
-  bool goes_on = false;                      ///< whether it is there after the last scan
-};
-
-/// What the tracker made of a recording.
-struct AssociateOutcome {
-  std::size_t scans = 0, detections = 0;
-  std::size_t explained = 0;                ///< detections of tracks that are confirmed at last
-  std::map<std::size_t, TrackLife> tracks;  ///< those, by number
-  std::optional<std::string> finding;
-  bool exact = true;
-};
-
-/// Leads all scans through the tracker, writes tracks.csv and detections.csv, and tells page and scorer, if there are
-/// such.
-AssociateOutcome run_associate(const AssociateOptions& options, RecordingReader& recording, ScanReader& scans,
-                               const FilterSettings& filter, ResultFiles& files, std::optional<AssociatePage>& page,
-                               std::optional<Scorer>& scorer) {
+/// Leads all scans through the tracker, and writes tracks.csv and detections.csv.
+AssociateHistory run_associate(const AssociateOptions& options, RecordingReader& recording, ScanReader& scans,
+                               const FilterSettings& filter, MultiTargetTracker& tracker, ResultFiles& files) {
   const int axes = recording.axes();
-  MultiTargetTracker tracker = tracker_for(options, filter, axes, associations[options.association].choice);
+  AssociateHistory history(axes);
   EstimatesFile tracks(&files, {filter}, recording, true);
   RowFile detections(files, "detections.csv", {"line", "time_s", "track", "support"});
-  AssociateOutcome outcome;
-  std::map<std::size_t, std::size_t> owned;  // detections of each track
   const auto total = recording.csv().bytes_total();
   Progress progress(recording.file(), total.value_or(1), options.output.quiet || !total);
   for (Scan scan; scans.next(scan);) {
@@ -46,50 +24,21 @@ AssociateOutcome run_associate(const AssociateOptions& options, RecordingReader&
     }
     for (const DetectionOwner& owner : tracker.owners()) {
       const Row& row = scan[owner.tag];
-      ++outcome.detections;
-      if (owner.track) ++owned[*owner.track];
       detections.write({row.line > 0 ? Cell(row.line) : Cell(), row.detection.time,
                         owner.track ? Cell(*owner.track) : Cell(), owner.support});
     }
-    const std::vector<TrackedTarget> shown = confirmed_of(tracker);
-    std::map<std::size_t, TrackedTarget> updated;  // at the times of their detections
-    for (TrackedTarget& target : tracker.tracks()) updated.emplace(target.number, std::move(target));
-    for (auto& [number, life] : outcome.tracks) life.goes_on = false;
-    for (const TrackedTarget& predicted : shown) {
-      const TrackedTarget& own = updated.at(predicted.number);
-      const TrackedTarget& target = own.point.time >= scan.front().detection.time ? own : predicted;
-      TrackLife& life = outcome.tracks[target.number];
-      life = {target.first_time, target.point.time, life.scans + 1, target.detected, true};
-      const EarthPoint point =
-          scans.frame() ? on_earth(target.point, *scans.frame(), axes) : EarthPoint{target.point, {}};
-      tracks.write(std::to_string(target.number), filter, point, target.existence);
+    const auto updated = tracker.tracks(), predicted = tracker.tracks(tracker.time());
+    history.add(tracker, scan, predicted);
+    for (std::size_t i = 0; i < predicted.size(); ++i) {
+      if (!predicted[i].confirmed) continue;
+      const bool seen = updated[i].point.time >= scan.front().detection.time;
+      const auto& [number, estimate, existence, _, confirmed, first_time, detected] = (seen ? updated : predicted)[i];
+      const EarthPoint point = scans.frame() ? on_earth(estimate, *scans.frame(), axes) : EarthPoint{estimate, {}};
+      tracks.write(std::to_string(number), filter, point, existence);
     }
-    if (page) page->add(tracker.time(), scan, tracker.owners(), shown, axes);
-    if (scorer) scorer->add(tracker.time(), scan, shown);
     progress.advance(recording.csv().bytes_read() - progress.done());
   }
-  for (const auto& [number, count] : owned)
-    if (outcome.tracks.contains(number)) outcome.explained += count;
-  outcome.scans = tracker.scans();
-  outcome.finding = tracker.finding();
-  outcome.exact = tracker.exact();
-  return outcome;
-}
-
-void add_tracks(const AssociateOutcome& outcome, Result& result) {
-  ResultTable table;
-  for (const auto& [number, life] : outcome.tracks) {
-    table.row_of({{of_words("track", "track"), std::to_string(number)},
-                  {{.key = "first_time_s", .header = "from", .unit = "s", .digits = 1}, life.first_time},
-                  {{.key = "last_time_s", .header = "to", .unit = "s", .digits = 1}, life.last_time},
-                  {{.key = "scans", .header = "scans"}, life.scans},
-                  {{.key = "detected", .header = "detected in"}, life.detected},
-                  {{.key = "at_the_end", .header = "at the end"}, life.goes_on ? "yes" : "no"}});
-  }
-  if (!table.empty())
-    result.add(
-        table,
-        {.printed = outcome.tracks.size() <= most_printed, .summary = {"tracks", "each"}, .title = "Confirmed tracks"});
+  return history;
 }
 
 void associate(const AssociateOptions& options) {
@@ -114,32 +63,32 @@ void associate(const AssociateOptions& options) {
   refuse_to_overwrite(options.output, {what.file, options.filters.config}, {"tracks.csv", "detections.csv"});
   ResultFiles files(options.output);
   ScanReader scans(options, recording, filter);
-  std::optional<AssociatePage> page;
-  if (files.report_wanted()) page.emplace();
-  std::optional<Scorer> scorer;
-  if (recording.has_tracks()) scorer.emplace(recording.axes());
-  const AssociateOutcome outcome = run_associate(options, recording, scans, filter, files, page, scorer);
-
-  Result result(options.output);
   const NamedAssociation& association = associations[options.association];
-  const auto at_the_end = std::ranges::count_if(outcome.tracks, [](const auto& one) { return one.second.goes_on; });
-  const std::string verdict = outcome.finding.value_or(fmt::format(
-      "{} confirmed track{}, {} of them at the end; {} of {} detections are explained", outcome.tracks.size(),
-      outcome.tracks.size() == 1 ? "" : "s", at_the_end, outcome.explained, outcome.detections));
+  MultiTargetTracker tracker = tracker_for(options, filter, recording.axes(), association.choice);
+  const AssociateHistory history = run_associate(options, recording, scans, filter, tracker, files);
+
+  constexpr std::size_t most_printed = 20;  // tracks
+  Result result(options.output);
+  const ResultTable tracks = history.tracks();
+  const std::size_t confirmed = tracks.rows(), at_the_end = history.at_the_end();
+  const std::size_t detections = history.detections(), explained = history.detections(true);
+  const std::string verdict = tracker.finding().value_or(
+      fmt::format("{} confirmed track{}, {} of them at the end; {} of {} detections are explained", confirmed,
+                  confirmed == 1 ? "" : "s", at_the_end, explained, detections));
   result.facts("file", recording.file(), "association", association.name, "filter", filter.name, "seed", options.seed,
-               "rows", scans.rows(), "scans", outcome.scans, "detections", outcome.detections, "explained",
-               outcome.explained, "exact", outcome.exact, "verdict", verdict);
-  result.facts_at({"tracks"}, "confirmed", outcome.tracks.size(), "at_the_end", at_the_end);
+               "rows", scans.rows(), "scans", tracker.scans(), "detections", detections, "explained", explained,
+               "exact", tracker.exact(), "verdict", verdict);
+  result.facts_at({"tracks"}, "confirmed", confirmed, "at_the_end", at_the_end);
   if (const auto& frame = scans.frame())
     result.facts_at({"origin"}, "latitude_deg", frame->origin().latitude_deg, "longitude_deg",
                     frame->origin().longitude_deg, "altitude_m", frame->origin().altitude_m);
   result.fact({"settings_toml"}, as_toml(filters));
   result.say("Verdict: {}", verdict);
   result.say("{}: {} rows, {} scans, {} detections; association {}, filter {}", recording.file(), scans.rows(),
-             outcome.scans, outcome.detections, association.name, filter.name);
+             tracker.scans(), detections, association.name, filter.name);
   result.say("Taken for: {}", recording.taken());
   for (const std::string& note : scans.notes()) result.say(note);
-  if (!outcome.exact)
+  if (!tracker.exact())
     result.say("Some marginals are by message passing: too many tracks contend for the same detections");
   if (options.radar.sigma)
     result.say(
@@ -150,10 +99,12 @@ void associate(const AssociateOptions& options) {
   result.page.title = "Tracks of unlabelled detections in " + what.file;
   result.page.verdict = {verdict};
   result.page.panels.emplace_back(Words{"The recording", result.text});
-  if (page) page->add_to(result.page, recording.on_the_earth());
-  add_tracks(outcome, result);
-  if (scorer) {
-    const Score score = scorer->score(options.cutoff);
+  if (files.report_wanted()) history.add_to(result.page, recording.on_the_earth());
+  if (confirmed > 0)
+    result.add(tracks,
+               {.printed = confirmed <= most_printed, .summary = {"tracks", "each"}, .title = "Confirmed tracks"});
+  if (recording.has_tracks()) {
+    const Score score = history.score(options.cutoff);
     ResultTable table;
     table.row_of(fields_of(association.name, [&](Score::Figure figure) { return score.values[figure]; }));
     result.add(table, {.summary = {"score"}, .title = "Tracks and labels"});
@@ -173,12 +124,6 @@ MultiTargetTracker tracker_for(const AssociateOptions& options, const FilterSett
   return MultiTargetTracker(choice_of(filter, axes), association, rules);
 }
 
-std::vector<TrackedTarget> confirmed_of(const MultiTargetTracker& tracker) {
-  std::vector<TrackedTarget> tracks = tracker.tracks(tracker.time());
-  std::erase_if(tracks, [](const TrackedTarget& one) { return !one.confirmed; });
-  return tracks;
-}
-
 FilterDefaults associate_defaults() {
   FilterDefaults defaults;
   defaults.names = {"imm"};
@@ -189,6 +134,7 @@ FilterDefaults associate_defaults() {
 void add_associate(CLI::App& program, const std::string& command) {
   Subcommand app(program, "associate", "Finds the targets behind unlabelled detections, and tracks them.");
   const auto options = std::make_shared<AssociateOptions>();
+  const auto names = each(situations, &NamedSituation::name);
   app.option("file", options->recording.file, "A recording as of track; - is the standard input");
   app.choice(
          "--association", each(associations, [](const auto& one) { return std::string(one.name); }),
@@ -214,7 +160,7 @@ void add_associate(CLI::App& program, const std::string& command) {
   app.option("--clutter", options->clutter, "False detections a scan of what is simulated, on average [0 with --radar]")
       .number_in(0.0, 500.0);
   app.option("--simulate", options->situation, "Write a situation with its truth instead of reading a file")
-      .one_of(names_of_situations());
+      .one_of(names);
   app.option("--radars", options->radars, "Radars at the corners of the situation, in turn; 0: positions are measured")
       .in(0, 4);
   app.option("--runs", options->runs, "Evaluate every association on so many runs of it").in(2, 1000000);
@@ -222,9 +168,9 @@ void add_associate(CLI::App& program, const std::string& command) {
   add_seed(app, options->seed);
   add_filter_options(app, options->filters);
   add_results(app, options->output, command);
-  app.run([options] {
+  app.run([options, names] {
     if (options->recording.file.empty() == options->situation.empty())
-      throw UsageError("associate needs a file, or --simulate SITUATION: {}", fmt::join(names_of_situations(), ", "));
+      throw UsageError("associate needs a file, or --simulate SITUATION: {}", fmt::join(names, ", "));
     options->situation.empty() ? associate(*options) : simulate_situation(*options);
   });
 }

@@ -2,6 +2,7 @@
 
 #include <deque>
 
+#include <sigmax/estimation/trajectory_gospa.hpp>
 #include <sigmax/hybrid/multi_target_tracker.hpp>
 
 #include "himm_demo/filters/settings.hpp"
@@ -45,14 +46,46 @@ using Scan = std::vector<Row>;
 MultiTargetTracker tracker_for(const AssociateOptions& options, const FilterSettings& filter, int axes,
                                const AssociationChoice& association);
 
-/// The confirmed tracks, predicted to the end of the last scan.
-std::vector<TrackedTarget> confirmed_of(const MultiTargetTracker& tracker);
-
 /// What settings of associate are by default: a radar's measurements stay in its own space, where clutter is uniform.
 FilterDefaults associate_defaults();
 
-/// The situations that can be simulated.
-std::vector<std::string> names_of_situations();
+/// What makes association hard; its name, and what the tracks need to know of its targets.
+enum class Situation {
+  crossing,     ///< two targets cross at 30°
+  parallel,     ///< two targets approach, fly 100 m apart for 60 s, and separate
+  splitting,    ///< a second target begins where the first one is, and turns away
+  manoeuvring,  ///< three targets turn at 6°/s, two of them towards each other
+  dense,        ///< twelve targets in 8 km × 8 km, with 60 false detections a scan
+  meeting  ///< four targets meet in a point, and one dies there, as in García-Fernández et al. (IEEE TAES 54:1883)
+};
+struct NamedSituation {
+  std::string name;
+  std::optional<double> greatest_speed{};  ///< in m/s
+  std::vector<std::string> sets{};
+};
+inline const std::vector<NamedSituation> situations = {
+    {"crossing"},    {"parallel"},     {"splitting"},
+    {"manoeuvring"}, {"dense", 100.0}, {"meeting", 3.0, {"sigma_w=0.1", "models=[dwna]"}}};
+
+/// How the targets are seen. What is absent is the situation's own.
+struct Visibility {
+  double detection_probability = 0.9;
+  std::optional<double> false_detections{};  ///< the mean number in a scan
+  int radars = 0;  ///< that take turns, at the corners of the area, with ranges and azimuths; 0: positions are measured
+};
+
+/// A situation as a seed draws it.
+struct Scene {
+  double false_detections;  ///< the mean number in a scan
+  /// Of each scan all detections in no order, then a row without a measurement for each target that was missed. Their
+  /// tracks are the targets, "1", "2", …, or empty; their truth is where the target was, x and y in m.
+  std::vector<Scan> scans{};
+  std::vector<Trajectory> truth{};  ///< x and y in m of each target
+};
+
+/// Draws a situation: truth and detections depend on the seed alone, and the truth not on the visibility. Throws
+/// std::invalid_argument unless the probability of detection is in [0, 1], and numbers are in [0, 500] and [0, 4].
+Scene simulate(Situation situation, std::uint64_t seed, const Visibility& visibility = {});
 
 /// `himm_demo associate --simulate`: writes a situation, or evaluates every association on many runs.
 void simulate_situation(AssociateOptions options);
@@ -138,46 +171,47 @@ struct Score {
 /// A row of them; each cell is what a function makes of a figure.
 std::vector<Field> fields_of(const std::string& name, const std::function<Cell(Score::Figure)>& cell);
 
-/// Keeps where targets were and tracks are, scan by scan, for the score.
-class Scorer {
+/// Keeps where targets were and confirmed tracks are, scan by scan.
+class AssociateHistory {
  public:
-  explicit Scorer(int axes) : axes_(axes) {}
+  explicit AssociateHistory(int axes) : axes_(axes) {}
 
-  /// Takes a scan, whose rows with a label tell where that target was, by their truth or else by what was measured, and
-  /// the tracks that are shown, at `time`.
-  void add(double time, const Scan& scan, const std::vector<TrackedTarget>& shown);
+  /// Takes a scan, whose rows with a label tell where that target was, by their truth or else by what was measured;
+  /// what the tracker made of it, and all its tracks at its time.
+  void add(const MultiTargetTracker& tracker, const Scan& scan, const std::vector<TrackedTarget>& tracks);
 
   /// By that cut-off; without it ten times the median standard deviation of a position.
   Score score(std::optional<double> cutoff) const;
 
- private:
-  using Point = std::vector<double>;
-  int axes_;
-  std::map<std::string, std::vector<Known>> targets_;
-  std::vector<std::pair<double, std::map<std::size_t, Point>>> scans_;  // their times and tracks
-  std::vector<double> sigmas_;
-};
+  /// A row for each confirmed track.
+  ResultTable tracks() const;
 
-/// Collects what the page shows, in memory that does not grow with the scans.
-class AssociatePage {
- public:
-  void add(double time, const Scan& scan, const std::vector<DetectionOwner>& owners,
-           const std::vector<TrackedTarget>& shown, int axes);
+  /// How many of these there are after the last scan.
+  std::size_t at_the_end() const;
+
+  /// All detections, or those of confirmed tracks.
+  std::size_t detections(bool explained = false) const;
+
   /// The plan, with unexplained detections, and existence over time.
   void add_to(Report& page, bool geodetic) const;
 
  private:
-  struct Point {
-    std::size_t scan;
-    Position at;
-    double existence = 1.0;
+  using Point = std::vector<double>;
+  /// A track since it is confirmed; where it is not, its positions are empty.
+  struct Track {
+    Trajectory path;
+    std::vector<double> existence;
+    double first_time;
+    std::size_t detected;
   };
-  using Points = std::vector<Point>;
 
-  std::size_t scans_ = 0, every_ = 1, kept_ = 0;  // of so many scans the first is kept
-  std::vector<double> times_;                     // of the scans that are kept
-  std::map<std::size_t, Points> tracks_, seen_;   // seen by the number of the track, or 0
-  std::map<std::string, Points> truth_;
+  int axes_;
+  std::vector<double> times_;  // of the scans
+  std::map<std::size_t, Track> tracks_;
+  std::map<std::size_t, std::vector<Position>> detections_;  // by the number of the track, or 0; NaN without a position
+  std::map<std::string, std::vector<Known>> targets_;
+  bool truth_known_ = false;
+  std::vector<double> sigmas_;
 };
 
 }  // namespace sigmax::apps

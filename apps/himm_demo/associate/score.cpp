@@ -1,7 +1,5 @@
 // How well tracks show the targets, and the page of `himm_demo associate`.
 
-#include <sigmax/estimation/trajectory_gospa.hpp>
-
 #include "himm_demo/associate/associate.hpp"
 
 namespace sigmax::apps {
@@ -18,6 +16,18 @@ double sigma_of_position(const AnyDetection& detection, int axes) {
   for (int i = 0; i < axes; ++i)
     sum += detection.variance(i) * (in_metres || i == 0 ? 1.0 : detection.z[0] * detection.z[0]);
   return std::sqrt(sum / axes);
+}
+
+/// Those that exist at a scan: their places among all, and where they are.
+std::pair<std::vector<std::size_t>, PointSet> present(const std::vector<Trajectory>& paths, std::size_t scan) {
+  std::pair<std::vector<std::size_t>, PointSet> found;
+  for (std::size_t i = 0; i < paths.size(); ++i) {
+    const auto& [start, positions] = paths[i];
+    if (scan < start || scan - start >= positions.size() || positions[scan - start].empty()) continue;
+    found.first.push_back(i);
+    found.second.push_back(positions[scan - start]);
+  }
+  return found;
 }
 
 }  // namespace
@@ -51,134 +61,156 @@ std::optional<Known> between(const std::vector<Known>& path, double time) {
   return result;
 }
 
-void Scorer::add(double time, const Scan& scan, const std::vector<TrackedTarget>& shown) {
+void AssociateHistory::add(const MultiTargetTracker& tracker, const Scan& scan,
+                           const std::vector<TrackedTarget>& tracks) {
   for (const Row& row : scan) {
     if (const double sigma = sigma_of_position(row.detection, axes_); sigma > 0.0) sigmas_.push_back(sigma);
     const auto at = row.truth ? row.truth : position_of(row.detection, axes_);
     if (row.track.empty() || !at) continue;
+    truth_known_ |= row.truth.has_value();
     auto& path = targets_[row.track];
     if (path.empty() || row.detection.time > path.back().time)  // else of a second sensor
       path.push_back({row.detection.time, row.line, *at});
   }
-  auto& tracks = scans_.emplace_back().second;
-  scans_.back().first = time;
-  for (const TrackedTarget& track : shown)
-    tracks.emplace(track.number, Point(track.point.mean.begin(), track.point.mean.begin() + axes_));
+  for (const DetectionOwner& owner : tracker.owners())
+    detections_[owner.track.value_or(0)].push_back(
+        position_of(scan[owner.tag].detection, axes_).value_or(Position{nan, nan, nan}));
+  for (const TrackedTarget& track : tracks) {
+    if (!track.confirmed) continue;
+    auto& [path, existence, first_time, detected] =
+        tracks_.try_emplace(track.number, Track{{times_.size(), {}}, {}, track.first_time, 0}).first->second;
+    path.positions.resize(times_.size() - path.start);
+    path.positions.emplace_back(track.point.mean.begin(), track.point.mean.begin() + axes_);
+    existence.resize(path.positions.size() - 1, nan);
+    existence.push_back(track.existence);
+    detected = track.detected;
+  }
+  times_.push_back(tracker.time());
 }
 
-Score Scorer::score(std::optional<double> cutoff) const {
+Score AssociateHistory::score(std::optional<double> cutoff) const {
   Score score;
   std::vector<double> sigmas = sigmas_;
-  const auto middle = sigmas.begin() + static_cast<std::ptrdiff_t>(sigmas.size() / 2);
+  const auto middle = sigmas.begin() + std::ssize(sigmas) / 2;
   std::ranges::nth_element(sigmas, middle);
   score.cutoff = cutoff.value_or(sigmas.empty() ? 10.0 : 10.0 * *middle);
-  std::map<std::string, double> confirmed;  // when each target had its first track
-  std::map<std::size_t, int> balance;       // of each track the scans as a target's, less all others
-  std::map<std::string, Trajectory> truth;
-  std::map<std::size_t, Trajectory> tracks;
-  for (std::size_t k = 0; k < scans_.size(); ++k) {
-    const auto& [time, shown] = scans_[k];
-    PointSet here, found;
-    std::vector<std::string> labels;
-    const auto put = [&](auto& trajectories, const auto& name, PointSet& points, const Point& point) {
-      Trajectory& own = trajectories.try_emplace(name, Trajectory{k, {}}).first->second;
-      own.positions.resize(k - own.start);
-      own.positions.push_back(point);
-      points.push_back(point);
-    };
-    for (const auto& [label, path] : targets_)
-      if (const auto known = between(path, time)) {
-        labels.push_back(label);
-        put(truth, label, here, Point(known->at.begin(), known->at.begin() + axes_));
-      }
-    for (const auto& [number, point] : shown) put(tracks, number, found, point);
+  const auto tracks = each(tracks_, [](const auto& one) { return one.second.path; });
+  const auto truth = each(targets_, [&](const auto& one) {
+    Trajectory path;
+    for (const double time : times_)
+      if (const auto known = between(one.second, time); !known)
+        path.positions.emplace_back();
+      else
+        path.positions.emplace_back(known->at.begin(), known->at.begin() + axes_);
+    return path;
+  });
+  std::vector<double> confirmed(truth.size(), nan);  // when each target had its first track
+  std::vector<int> balance(tracks.size());           // of each track the scans as a target's, less all others
+  for (std::size_t k = 0; k < times_.size(); ++k) {
+    const auto [targets, here] = present(truth, k);
+    const auto [shown, found] = present(tracks, k);
     const Gospa result = sigmax::gospa(here, found, {.cutoff = score.cutoff, .order = 2.0});
     score[Score::localisation] += result.localisation;
     score[Score::missed] += result.missed;
     score[Score::false_targets] += result.false_targets;
-    for (const auto& [number, point] : shown) --balance[number];
-    for (std::size_t i = 0; i < labels.size(); ++i)
-      if (const auto& of = result.estimate_of[i]) {
-        balance[std::next(shown.begin(), static_cast<std::ptrdiff_t>(*of))->first] += 2;
-        confirmed.try_emplace(labels[i], time);
-      }
+    for (const std::size_t track : shown) --balance[track];
+    for (std::size_t i = 0; i < targets.size(); ++i) {
+      if (!result.estimate_of[i]) continue;
+      balance[shown[*result.estimate_of[i]]] += 2;
+      if (double& first = confirmed[targets[i]]; std::isnan(first)) first = times_[k];
+    }
   }
   score[Score::gospa] = score[Score::localisation] + score[Score::missed] + score[Score::false_targets];
   for (std::size_t i = Score::gospa; i <= Score::false_targets; ++i)
-    score.values[i] = std::sqrt(score.values[i] / static_cast<double>(std::max<std::size_t>(scans_.size(), 1)));
+    score.values[i] = std::sqrt(score.values[i] / static_cast<double>(std::max<std::size_t>(times_.size(), 1)));
   score[Score::targets] = static_cast<double>(targets_.size());
-  score[Score::untracked] = static_cast<double>(targets_.size() - confirmed.size());
-  for (const auto& [label, time] : confirmed) score[Score::time_to_confirm] += time - targets_.at(label).front().time;
-  score[Score::time_to_confirm] /= static_cast<double>(confirmed.size());  // NaN without any
-  for (const auto& [number, scans] : balance) score[Score::false_tracks] += scans < 0 ? 1.0 : 0.0;
-  const auto values = [](const auto& named) { return each(named, [](const auto& one) { return one.second; }); };
+  for (auto time = confirmed.begin(); const auto& [label, path] : targets_) {
+    const double since = *time++ - path.front().time;
+    score[Score::untracked] += std::isnan(since) ? 1.0 : 0.0;
+    score[Score::time_to_confirm] += std::isnan(since) ? 0.0 : since;
+  }
+  score[Score::time_to_confirm] /= score[Score::targets] - score[Score::untracked];  // NaN without any
+  score[Score::false_tracks] = static_cast<double>(std::ranges::count_if(balance, [](int scans) { return scans < 0; }));
   const TrajectoryGospaSettings settings{
       .cutoff = score.cutoff, .switch_penalty = score.cutoff / 2.0, .max_states = 100};
-  score[Score::switches] = trajectory_gospa(values(truth), values(tracks), settings).switches;
+  score[Score::switches] = trajectory_gospa(truth, tracks, settings).switches;
   return score;
 }
 
-void AssociatePage::add(double time, const Scan& scan, const std::vector<DetectionOwner>& owners,
-                        const std::vector<TrackedTarget>& shown, int axes) {
-  const std::size_t number = scans_++;
-  if (number % every_ != 0) return;
-  times_.push_back(time);
-  for (const TrackedTarget& track : shown) {
-    Point& point = tracks_[track.number].emplace_back(Point{number, {}, track.existence});
-    std::copy_n(track.point.mean.begin(), axes, point.at.begin());
-  }
-  for (const DetectionOwner& owner : owners)
-    if (const auto at = position_of(scan[owner.tag].detection, axes))
-      seen_[owner.track.value_or(0)].push_back({number, *at});
-  for (const Row& row : scan)
-    if (row.truth && !row.track.empty()) truth_[row.track].push_back({number, *row.truth});
-  kept_ += 2 * shown.size() + owners.size();
-  if (kept_ <= most_points) return;
-  every_ *= 2;
-  kept_ /= 2;
-  const auto thin = [&](auto& named) {
-    for (auto& [name, points] : named)
-      std::erase_if(points, [&](const Point& point) { return point.scan % every_ != 0; });
-  };
-  thin(tracks_), thin(seen_), thin(truth_);
-  for (std::size_t k = 0; 2 * k < times_.size(); ++k) times_[k] = times_[2 * k];
-  times_.resize((times_.size() + 1) / 2);
+std::size_t AssociateHistory::at_the_end() const {
+  return static_cast<std::size_t>(std::ranges::count_if(
+      tracks_, [&](const auto& one) { return one.second.path.start + one.second.existence.size() == times_.size(); }));
 }
 
-void AssociatePage::add_to(Report& page, bool geodetic) const {
+std::size_t AssociateHistory::detections(bool explained) const {
+  std::size_t count = 0;
+  for (const auto& [number, own] : detections_) count += !explained || tracks_.contains(number) ? own.size() : 0;
+  return count;
+}
+
+ResultTable AssociateHistory::tracks() const {
+  ResultTable table;
+  for (const auto& [number, track] : tracks_) {
+    const std::size_t end = track.path.start + track.existence.size();
+    const auto absent = std::ranges::count_if(track.existence, [](double one) { return std::isnan(one); });
+    table.row_of({{of_words("track", "track"), std::to_string(number)},
+                  {{.key = "first_time_s", .header = "from", .unit = "s", .digits = 1}, track.first_time},
+                  {{.key = "last_time_s", .header = "to", .unit = "s", .digits = 1}, times_[end - 1]},
+                  {{.key = "scans", .header = "scans"}, std::ssize(track.existence) - absent},
+                  {{.key = "detected", .header = "detected in"}, track.detected},
+                  {{.key = "at_the_end", .header = "at the end"}, end == times_.size() ? "yes" : "no"}});
+  }
+  return table;
+}
+
+void AssociateHistory::add_to(Report& page, bool geodetic) const {
   page.groups.push_back({measurement_name, true});
-  if (!truth_.empty()) page.groups.push_back({truth_name, true});
+  if (truth_known_) page.groups.push_back({truth_name, true});
+  std::size_t points = detections();
+  for (const auto& [number, track] : tracks_) points += 2 * track.existence.size();
+  const std::size_t every = 1 + points / most_points;
   MapChart plan{.title = "Tracks", .x_label = geodetic ? "east, m" : "x, m", .y_label = geodetic ? "north, m" : "y, m"};
-  const auto put = [](PlanTrace& trace, const Points& points) {
-    for (const Point& point : points) {
-      trace.x.push_back(point.at[0]);
-      trace.y.push_back(point.at[1]);
+  const auto put = [&](PlanTrace& trace, const auto& all, const auto& at) {
+    for (std::size_t k = 0; k < all.size(); k += every) {
+      const auto& point = at(all[k]);
+      if (point.empty() || std::isnan(point[0])) continue;
+      trace.x.push_back(point[0]);
+      trace.y.push_back(point[1]);
     }
   };
   PlanTrace unexplained{"unexplained detections", measurement_name, PlanTrace::Shape::crosses};
   PlanTrace explained{"detections of tracks", measurement_name, PlanTrace::Shape::dots};
   PlanTrace truth{truth_name, truth_name};
-  for (const auto& [track, points] : seen_) put(tracks_.contains(track) ? explained : unexplained, points);
-  for (const auto& [label, points] : truth_) put(truth, points), put(truth, {{0, {nan, nan, nan}}});
+  for (const auto& [track, own] : detections_)
+    put(tracks_.contains(track) ? explained : unexplained, own, std::identity());
+  for (const auto& [label, path] : targets_) {
+    if (!truth_known_) break;
+    put(truth, path, [](const Known& known) { return known.at; });
+    truth.x.push_back(nan);
+    truth.y.push_back(nan);
+  }
   plan.traces = {std::move(unexplained), std::move(explained), std::move(truth)};
-  for (const auto& [number, points] : tracks_)
-    put(plan.traces.emplace_back(PlanTrace{.name = fmt::format("track {}", number)}), points);
+  for (const auto& [number, track] : tracks_)
+    put(plan.traces.emplace_back(PlanTrace{.name = fmt::format("track {}", number)}), track.path.positions,
+        std::identity());
   std::erase_if(plan.traces, [](const PlanTrace& trace) { return trace.x.empty(); });
   page.panels.emplace_back(std::move(plan));
 
-  LineChart existence{.title = "Existence", .x_label = "time, s", .y_label = "existence", .x = times_};
+  LineChart existence{.title = "Existence", .x_label = "time, s", .y_label = "existence"};
   existence.greatest_y = 1.0;
   existence.coloured = true;
+  for (std::size_t k = 0; k < times_.size(); k += every) existence.x.push_back(times_[k]);
   auto longest = each(tracks_, [](const auto& one) { return &one; });
-  std::ranges::stable_sort(longest, std::greater<>(), [](const auto* one) { return one->second.size(); });
+  std::ranges::stable_sort(longest, std::greater<>(), [](const auto* one) { return one->second.existence.size(); });
   if (longest.size() > most_curves) {
     existence.note = fmt::format("The {} longest of {} tracks.", most_curves, longest.size());
     longest.resize(most_curves);
   }
   for (const auto* one : longest) {
-    Curve curve{.name = fmt::format("track {}", one->first), .values = std::vector<double>(times_.size(), nan)};
-    for (const Point& point : one->second) curve.values[point.scan / every_] = point.existence;
-    existence.curves.push_back(std::move(curve));
+    const auto& [path, own, first_time, detected] = one->second;
+    existence.curves.push_back({.name = fmt::format("track {}", one->first)});
+    for (std::size_t k = 0; k < times_.size(); k += every)
+      existence.curves.back().values.push_back(k - path.start < own.size() ? own[k - path.start] : nan);
   }
   if (!existence.curves.empty()) page.panels.emplace_back(std::move(existence));
 }

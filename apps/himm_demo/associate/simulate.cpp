@@ -1,7 +1,6 @@
 // Situations with their truth: as a file, or evaluated on many runs.
 
 #include "himm_demo/associate/associate.hpp"
-#include "himm_demo/associate/situations.hpp"
 #include "study/study.hpp"
 
 namespace sigmax::apps {
@@ -9,20 +8,16 @@ namespace {
 
 constexpr int plane_axes = 2;
 
-/// What the tracks of a situation need to know of its targets.
-struct Needs {
-  std::optional<double> greatest_speed{};  ///< in m/s
-  std::vector<std::string> sets{};
-};
-Needs needs_of(std::string_view situation) {
-  if (situation == "meeting") return {3.0, {"sigma_w=0.1", "models=[dwna]"}};
-  return situation == "dense" ? Needs{100.0} : Needs{};
+/// The place of the situation among all.
+std::size_t place_of(const AssociateOptions& options) {
+  return static_cast<std::size_t>(std::ranges::find(situations, options.situation, &NamedSituation::name) -
+                                  situations.begin());
 }
 
 std::vector<Scan> drawn(const AssociateOptions& options, std::uint64_t seed) {
-  const auto place = std::ranges::find(situation_names, options.situation) - situation_names.begin();
-  const Visibility visibility{options.rules.detection_probability, options.clutter, options.radars};
-  return simulate(static_cast<Situation>(place), seed, visibility).scans;
+  return simulate(static_cast<Situation>(place_of(options)), seed,
+                  {options.rules.detection_probability, options.clutter, options.radars})
+      .scans;
 }
 
 /// Writes a situation as a recording, and prints the command that reads it.
@@ -32,31 +27,32 @@ void write_situation(const AssociateOptions& options) {
   refuse_to_overwrite(options.output, {options.filters.config}, {name});
   ResultFiles files(options.output);
   const bool polar = options.radars > 0;
-  std::string text = polar ? "time_s,sensor,range_m,azimuth_deg,sigma_range_m,sigma_azimuth_deg,sensor_x_m,sensor_y_m"
-                           : "time_s,x_m,y_m,sigma_position_m";
-  text += ",label,true_x_m,true_y_m\n";
+  std::vector<std::string> keys = {"time_s", "x_m", "y_m", "sigma_position_m"};
+  if (polar)
+    keys = {"time_s",     "sensor",    "range_m", "azimuth_deg", "sigma_range_m", "sigma_azimuth_deg",
+            "sensor_x_m", "sensor_y_m"};
+  keys.insert(keys.end(), {"label", "true_x_m", "true_y_m"});
+  RowFile file(files, name, keys);
   std::size_t detections = 0;
   const auto scans = drawn(options, options.seed);
   for (const Scan& scan : scans)
     for (const Row& row : scan) {
       const AnyDetection& seen = row.detection;
-      const double sigma = std::sqrt(seen.variance(0));
-      text += polar ? fmt::format("{},{},", seen.time, row.sensor) : fmt::format("{},", seen.time);
-      if (!row.measured())
-        text += polar ? ",,,,," : ",,";
-      else if (polar)
-        text += fmt::format("{},{},{},{},{},{}", seen.z[0], seen.z[1] / degree, sigma,
-                            std::sqrt(seen.variance(1)) / degree, seen.origin[0], seen.origin[1]);
-      else
-        text += fmt::format("{},{},{}", seen.z[0], seen.z[1], sigma);
-      text += row.truth ? fmt::format(",{},{},{}\n", row.track, (*row.truth)[0], (*row.truth)[1]) : ",,,\n";
+      const double sigma = std::sqrt(seen.variance(0)), across = std::sqrt(seen.variance(1)) / degree;
+      std::vector<Cell> cells = {seen.z[0], seen.z[1], sigma};
+      if (polar) cells = {seen.z[0], seen.z[1] / degree, sigma, across, seen.origin[0], seen.origin[1]};
+      if (!row.measured()) cells.assign(cells.size(), {});
+      if (polar) cells.insert(cells.begin(), row.sensor);
+      cells.insert(cells.begin(), seen.time);
+      if (row.truth) cells.insert(cells.end(), {row.track, (*row.truth)[0], (*row.truth)[1]});
+      cells.resize(keys.size());
+      file.write(cells);
       if (row.measured()) ++detections;
     }
-  files.write(name, text);
-  const Needs needs = needs_of(options.situation);
+  const auto& [_, greatest_speed, sets] = situations[place_of(options)];
   std::string command = fmt::format("himm_demo associate {} --labels label", in_shell(options.output.out + "/" + name));
-  if (needs.greatest_speed) command += fmt::format(" --greatest-speed {}", *needs.greatest_speed);
-  for (const std::string& set : needs.sets) command += " --set " + set;
+  if (greatest_speed) command += fmt::format(" --greatest-speed {}", *greatest_speed);
+  for (const std::string& set : sets) command += " --set " + set;
   Result result(options.output);
   result.facts("situation", options.situation, "seed", options.seed, "scans", scans.size(), "detections", detections);
   result.say("Situation {}, seed {}: {} scans, {} detections", options.situation, options.seed, scans.size(),
@@ -68,13 +64,13 @@ void write_situation(const AssociateOptions& options) {
 
 /// A figure of the runs, ± 95 %: the root mean square of GOSPA and its parts, the mean of others.
 Cell averaged(std::vector<double> values, Score::Figure figure) {
-  if (figure <= Score::false_targets) {
-    for (double& value : values) value *= value;
-    return sqrt(Statistic::mean(values, std::vector<double>(values.size(), 1.0))).interval();
-  }
-  if (figure == Score::targets) return values.front();
+  const bool is_root = figure <= Score::false_targets;
   std::erase_if(values, [](double value) { return std::isnan(value); });
-  return values.empty() ? Cell() : Cell(mean_interval(values));
+  if (values.empty()) return {};
+  if (figure == Score::targets) return values.front();
+  for (double& value : values) value *= is_root ? value : 1.0;
+  const Statistic mean = Statistic::mean(values, std::vector<double>(values.size(), 1.0));
+  return (is_root ? sqrt(mean) : mean).interval();
 }
 
 void evaluate(const AssociateOptions& options, const std::vector<FilterSettings>& filters) {
@@ -88,13 +84,13 @@ void evaluate(const AssociateOptions& options, const std::vector<FilterSettings>
     for (const auto& contestant : contestants) {
       const FilterSettings& filter = contestant.second;
       MultiTargetTracker tracker = tracker_for(options, filter, plane_axes, contestant.first.choice);
-      Scorer scorer(plane_axes);
+      AssociateHistory history(plane_axes);
       for (const Scan& scan : scans) {
         tracker.scan(each(
             scan, [&](const Row& seen) { return with_sensor_noise(filter, seen.sensor, seen.detection, plane_axes); }));
-        scorer.add(tracker.time(), scan, confirmed_of(tracker));
+        history.add(tracker, scan, tracker.tracks(tracker.time()));
       }
-      const Score score = scorer.score(options.cutoff);
+      const Score score = history.score(options.cutoff);
       row.insert(row.end(), score.values.begin(), score.values.end());
     }
     return row;
@@ -123,18 +119,16 @@ void evaluate(const AssociateOptions& options, const std::vector<FilterSettings>
 
 }  // namespace
 
-std::vector<std::string> names_of_situations() { return {situation_names.begin(), situation_names.end()}; }
-
 void simulate_situation(AssociateOptions options) {
   if (options.radars > 0 && options.radar.sigma) throw UsageError("--radar is for a file, --radars for --simulate");
   if (!options.runs) return write_situation(options);
   FilterDefaults defaults = associate_defaults();
   // The targets of `meeting` have one motion, so that the kind of the mode does not matter.
   if (options.situation != "meeting") defaults.names = {"imm", "himm"};
-  const Needs needs = needs_of(options.situation);
-  options.filters.sets.insert(options.filters.sets.begin(), needs.sets.begin(), needs.sets.end());
-  if (options.rules.greatest_speed == MultiTargetRules().greatest_speed)
-    options.rules.greatest_speed = needs.greatest_speed.value_or(options.rules.greatest_speed);
+  const auto& [_, greatest_speed, sets] = situations[place_of(options)];
+  options.filters.sets.insert(options.filters.sets.begin(), sets.begin(), sets.end());
+  if (options.rules.greatest_speed == MultiTargetRules().greatest_speed && greatest_speed)
+    options.rules.greatest_speed = *greatest_speed;
   RecordingOptions none;
   const auto filters = filters_for(none, options.filters, std::nullopt, defaults);
   if (options.filters.print_config) return fmt::print("{}", as_toml(filters));

@@ -1,13 +1,6 @@
-#include "himm_demo/associate/situations.hpp"
+#include "himm_demo/associate/associate.hpp"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
 #include <complex>
-#include <stdexcept>
-
-#include "shell/random.hpp"
-#include "shell/text.hpp"
 
 namespace sigmax::apps {
 namespace {
