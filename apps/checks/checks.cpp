@@ -1,27 +1,25 @@
-#include "checks/records.hpp"
-#include "shell/text.hpp"
+#include "checks/checks.hpp"
 
 namespace sigmax::apps {
 
 using namespace checks;
 
-RecordingChecks::RecordingChecks(const RecordingReader& recording)
-    : records_(std::make_shared<Records>(Records{recording})) {
+RecordingChecks::RecordingChecks(const RecordingReader& recording) : records_{recording} {
   using enum Role;
   for (const Role role : {position, place, polar, velocity, course, range_rate, truth})
     for (std::size_t q = place_of(role); q < place_of(role) + size_of(role); ++q)
-      if (recording.holds(q)) records_->columns.push_back(q);
+      if (recording.holds(q)) records_.columns.push_back(q);
 }
 
 void RecordingChecks::see(const Row& row, const LocalFrame* frame) {
-  const RecordingReader& recording = records_->recording;
-  const int axes = records_->axes;
-  Track& track = records_->tracks[row.track];
-  for (const std::size_t q : records_->columns) track.written.push_back(recording.written(q).value_or(nan));
-  auto sensor = std::ranges::find(records_->sensors, row.sensor);
-  if (sensor == records_->sensors.end()) sensor = records_->sensors.insert(sensor, row.sensor);
+  const RecordingReader& recording = records_.recording;
+  const int axes = records_.axes;
+  Track& track = records_.tracks[row.track];
+  for (const std::size_t q : records_.columns) track.written.push_back(recording.written(q).value_or(nan));
+  auto sensor = std::ranges::find(records_.sensors, row.sensor);
+  if (sensor == records_.sensors.end()) sensor = records_.sensors.insert(sensor, row.sensor);
   const AnyDetection& detection = row.detection;
-  Record record{detection.time, row.line, static_cast<std::size_t>(sensor - records_->sensors.begin()),
+  Record record{detection.time, row.line, static_cast<std::size_t>(sensor - records_.sensors.begin()),
                 Vector(row.rates.data()), Vector(detection.origin.data())};
   if (row.truth) record.truth = Vector(row.truth->data());
   for (int i = 0; i < axes; ++i)
@@ -36,7 +34,7 @@ void RecordingChecks::see(const Row& row, const LocalFrame* frame) {
     if (axes == 3) record.elevation = detection.z[2];
     if (detection.sensor == Sensor::doppler) record.range_rate = detection.z[static_cast<std::size_t>(axes)];
     record.at = Vector(position_of(detection, axes)->data());
-    records_->radars.try_emplace(record.sensor, record.from);
+    records_.radars.try_emplace(record.sensor, record.from);
   } else if (recording.geodetic() && here) {
     track.altitude_m = here->altitude_m;
     if (!track.frame) track.frame = frame ? *frame : LocalFrame(*here, axes);
@@ -56,7 +54,7 @@ void RecordingChecks::see(const Row& row, const LocalFrame* frame) {
 }
 
 std::optional<std::string> RecordingChecks::assumed() const {
-  const RecordingReader& recording = records_->recording;
+  const RecordingReader& recording = records_.recording;
   if (!(recording.polar() || recording.bearings()) || recording.azimuth_from_is_given()) return std::nullopt;
   return fmt::format(
       "{}:1: azimuths are read counter-clockwise from x (east), as nobody said from where they count; compass "
@@ -69,7 +67,7 @@ std::vector<std::string> RecordingChecks::findings() const {
   // What explains the rest comes first: whoever finds something is the last.
   for (const auto check : {check_columns, check_sentinels, check_targets, check_held, check_interpolated, check_times,
                            check_velocities, check_sensors})
-    if (found.empty()) check(*records_, found);
+    if (found.empty()) check(records_, found);
   std::map<std::string, std::size_t> again;  // of one kind, in several tracks
   for (const Finding& one : found) ++again[one.text.substr(0, one.text.find(':'))];
   std::vector<std::string> sentences;
@@ -77,7 +75,7 @@ std::vector<std::string> RecordingChecks::findings() const {
     const std::size_t tracks = std::exchange(again[text.substr(0, text.find(':'))], 0);
     if (tracks == 0) continue;
     const std::string others = tracks > 1 ? fmt::format(" and {} more", tracks - 1) : "";
-    sentences.push_back(fmt::format("{}:{}: {}{}", records_->recording.file(), line,
+    sentences.push_back(fmt::format("{}:{}: {}{}", records_.recording.file(), line,
                                     track.empty() ? "" : fmt::format("track '{}'{}: ", track, others), text));
   }
   return sentences;

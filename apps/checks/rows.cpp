@@ -1,8 +1,7 @@
 // Checks of columns (two that are one, numbers that stand for none) and of rows beside each other (several targets,
 // held and interpolated rows, the unit of times).
 
-#include "checks/records.hpp"
-#include "shell/text.hpp"
+#include "checks/checks.hpp"
 
 namespace sigmax::apps::checks {
 namespace {

@@ -1,7 +1,6 @@
 // Sensors against each other or against the truth: where they stand, their north, clock, range and how they are read.
 
-#include "checks/records.hpp"
-#include "shell/text.hpp"
+#include "checks/checks.hpp"
 
 namespace sigmax::apps::checks {
 namespace {

@@ -1,7 +1,6 @@
 // Velocities against how positions grow: growth = A · velocity + c, with its lag. What A and c may be is a table.
 
-#include "checks/records.hpp"
-#include "shell/text.hpp"
+#include "checks/checks.hpp"
 
 namespace sigmax::apps::checks {
 namespace {

@@ -1,5 +1,4 @@
 #include "himm_demo/experiment/sentences.hpp"
-#include "himm_demo/experiment/tally.hpp"
 #include "report/result.hpp"
 #include "shell/command_line.hpp"
 

@@ -1,6 +1,5 @@
 #include <set>
 
-#include "checks/table_checks.hpp"
 #include "recognition_demo/learning.hpp"
 
 namespace sigmax::apps {

@@ -56,6 +56,10 @@ inline const std::vector<std::string> kind_names = {"sigma", "max", "sigma-max"}
 /// Throws UsageError where a feature would be misread more often than read.
 std::vector<TableClassifier> classifiers(TableModel model, std::span<const std::string> kinds = kind_names);
 
+/// Prints what was left out of a table, and what is probably wrong with it, to standard error: a sentence for each
+/// cause with a remedy. Each holds by the table alone, so that nothing is trained for it. Docs: recognition_demo.md.
+void print_findings(const LabelledTable& table);
+
 /// The options of learning, and those of the data that are learned from.
 void add_learning(Subcommand app, std::string& file, TableReading& data, TableOptions& learning);
 

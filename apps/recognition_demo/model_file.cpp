@@ -1,8 +1,8 @@
 #include "recognition_demo/learning.hpp"
 
+#include <nlohmann/json.hpp>
+
 #include "shell/files.hpp"
-#include "shell/json.hpp"
-#include "shell/text.hpp"
 
 namespace sigmax::apps {
 namespace {

@@ -3,7 +3,6 @@
 
 #include <sigmax/recognition/dominance.hpp>
 
-#include "checks/table_checks.hpp"
 #include "recognition_demo/learning.hpp"
 
 namespace sigmax::apps {

@@ -57,34 +57,23 @@ Study::Row row_of(const Drawn& drawn, const std::vector<NamedClassifier>& contes
   return row;
 }
 
-/// A run, and what each contestant made of it.
-struct RunResult {
-  std::size_t truth;
-  std::vector<Trace> traces;
-};
-
-RunResult run_of(const Study::Row& row, std::size_t contestants) {
-  RunResult seen{static_cast<std::size_t>(row[0]), {}};
-  const auto reports = static_cast<std::ptrdiff_t>(row[1]);
-  const auto size = static_cast<std::ptrdiff_t>((row.size() - 2) / contestants);
-  for (auto at = row.begin() + 2; at != row.end(); at += size)
-    seen.traces.push_back({{at + 1, at + 1 + reports}, {at + 1 + reports, at + size}, static_cast<std::size_t>(*at)});
-  return seen;
-}
-
-void add(Scores& scores, const RunResult& run) {
+/// Adds a run from such a row.
+void add(Scores& scores, const Study::Row& row) {
+  const auto truth = static_cast<std::size_t>(row[0]), reports = static_cast<std::size_t>(row[1]);
+  const std::size_t size = (row.size() - 2) / scores.size();
   for (std::size_t i = 0; i < scores.size(); ++i) {
-    const Trace& trace = run.traces[i];
+    const auto own = std::span(row).subspan(2 + i * size, size), credit = own.subspan(1, reports);
+    const auto belief = own.subspan(1 + reports);
     Score& score = scores[i];
-    score.right.resize(trace.credit.size());
-    for (std::size_t k = 0; k < trace.credit.size(); ++k) score.right[k].add(trace.credit[k]);
-    score.minus_first.add(trace.credit.back() - run.traces[0].credit.back());
-    score.belief_in_truth.add(trace.belief[run.truth]);
-    score.necessity_of_truth.add(1.0 - greatest_other(trace.belief, run.truth));
-    const double greatest = std::log(*std::ranges::max_element(trace.belief));
+    score.right.resize(reports);
+    for (std::size_t k = 0; k < reports; ++k) score.right[k].add(credit[k]);
+    score.minus_first.add(credit.back() - row[2 + reports]);
+    score.belief_in_truth.add(belief[truth]);
+    score.necessity_of_truth.add(1.0 - greatest_other(belief, truth));
+    const double greatest = std::log(*std::ranges::max_element(belief));
     const auto is_best = [&](double one) { return ties(std::log(one), greatest); };
-    score.ties.add(std::ranges::count_if(trace.belief, is_best) > 1 ? 1.0 : 0.0);
-    score.refused += trace.refused;
+    score.ties.add(std::ranges::count_if(belief, is_best) > 1 ? 1.0 : 0.0);
+    score.refused += static_cast<std::size_t>(own[0]);
   }
 }
 
@@ -111,10 +100,7 @@ void run_world(const World& world, const DrawOptions& options, ResultFiles& file
                       const Drawn drawn = condition.draw(cell % options.runs);
                       return row_of(drawn, drawn.contestants.empty() ? condition.contestants : drawn.contestants);
                     }};
-  const auto add_row = [&](std::size_t cell, const Study::Row& row) {
-    Scores& own = scores[cell / options.runs];
-    add(own, run_of(row, own.size()));
-  };
+  const auto add_row = [&](std::size_t cell, const Study::Row& row) { add(scores[cell / options.runs], row); };
   if (!run(study, {.threads = options.threads}, options.output, add_row)) return;
   Result result = comparison_result(world.title, options.output, each(scores.front(), &Score::name));
   world.tell(scores, result);

@@ -1,7 +1,6 @@
 // What the columns of a recording are: which count, what they were taken for, and why others do not count.
 
 #include "records/recording.hpp"
-#include "shell/text.hpp"
 #include "table/timestamp.hpp"
 
 namespace sigmax::apps {

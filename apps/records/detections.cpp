@@ -1,7 +1,6 @@
 #include "records/recording.hpp"
 
 #include "shell/random.hpp"
-#include "shell/text.hpp"
 
 namespace sigmax::apps {
 

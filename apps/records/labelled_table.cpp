@@ -5,7 +5,6 @@
 #include <tuple>
 
 #include "shell/progress.hpp"
-#include "shell/text.hpp"
 
 namespace sigmax::apps {
 namespace {

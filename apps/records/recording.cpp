@@ -4,8 +4,6 @@
 
 #include <cmath>
 
-#include "shell/text.hpp"
-
 namespace sigmax::apps {
 namespace {
 

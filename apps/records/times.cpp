@@ -1,7 +1,6 @@
 // The times of a recording's rows.
 
 #include "records/recording.hpp"
-#include "shell/text.hpp"
 #include "table/timestamp.hpp"
 
 namespace sigmax::apps {

@@ -3,7 +3,8 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "shell/json.hpp"
+#include <nlohmann/json.hpp>
+
 #include "version.hpp"
 
 namespace sigmax::apps {
@@ -248,6 +249,10 @@ Json as_json(const Cell& cell) {
   return {{"mean", interval->mean},
           {"lower", open ? Json() : Json(interval->lower())},
           {"upper", open ? Json() : Json(interval->upper())}};
+}
+
+std::string dumped(const Json& json, int indent) {
+  return json.dump(indent, ' ', false, Json::error_handler_t::replace);
 }
 
 bool has_reports() { return !report_assets::script.empty(); }

@@ -3,7 +3,8 @@
 #include <cstdio>
 #include <system_error>
 
-#include "shell/json.hpp"
+#include <nlohmann/json.hpp>
+
 #include "shell/progress.hpp"
 #include "version.hpp"
 

@@ -119,7 +119,6 @@ class ResultTable {
   /// Adds a rule below the rows so far; it is for the terminal only.
   void rule() { rows_.emplace_back(); }
 
-  std::size_t rows() const { return rows_.size(); }
   bool empty() const { return rows_.empty(); }
 
   /// Some rows with the columns of a part, a bit of `ResultColumn::parts`, and another first header.
@@ -155,7 +154,14 @@ class ResultTable {
   std::vector<std::vector<Cell>> rows_;  // a rule is a row without cells
 };
 
+/// With its keys in the order in which they were written.
+using Json = nlohmann::ordered_json;
+
 /// A cell as JSON; an interval is {"mean", "lower", "upper"}.
-nlohmann::ordered_json as_json(const Cell& cell);
+Json as_json(const Cell& cell);
+
+/// As text; of what is no UTF-8, a name in Latin-1, each byte stands as U+FFFD. Indented by so many blanks, or one
+/// line.
+std::string dumped(const Json& json, int indent = -1);
 
 }  // namespace sigmax::apps

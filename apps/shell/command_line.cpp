@@ -191,9 +191,7 @@ Option& Option::text(const std::string& text) { return option_->option_text(text
 
 Option& Option::type(const std::string& name) { return option_->type_name(name), *this; }
 
-Option& Option::list() { return option_->delimiter(','), *this; }
-
-Option& Option::list_alone() { return option_->delimiter(',')->allow_extra_args(false), *this; }
+Option& Option::list() { return option_->delimiter(',')->allow_extra_args(false), *this; }
 
 Option& Option::repeated() {
   return option_->expected(1)->allow_extra_args(false)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll), *this;
@@ -255,10 +253,6 @@ Option Subcommand::flag(const std::string& name, bool& value, const std::string&
   return Option(app_.add_flag(name, value, meaning));
 }
 
-Option Subcommand::flag(const std::string& name, std::string& value, const std::string& meaning) {
-  return Option(app_.add_flag(name, value, meaning));
-}
-
 Option Subcommand::list(const std::string& name, std::vector<std::string>& words, const std::string& meaning) {
   const auto take = [&words](const std::vector<std::string>& given) {
     for (const std::string& text : given)
@@ -273,8 +267,6 @@ Option Subcommand::triple(const std::string& name, std::optional<std::array<doub
   const auto take = [&values](const std::vector<double>& given) { values = {given[0], given[1], given[2]}; };
   return Option(app_.add_option_function<std::vector<double>>(name, take, meaning)->delimiter(',')->expected(3));
 }
-
-Option Subcommand::option(const std::string& name) { return Option(app_.get_option(name)); }
 
 void Subcommand::run(const std::function<void()>& work) { app_.callback(work); }
 

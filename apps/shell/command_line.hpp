@@ -56,8 +56,7 @@ class Option {
 
   Option& text(const std::string& text);  ///< instead of type, default and range in the help
   Option& type(const std::string& name);  ///< instead of the type alone
-  Option& list();                         ///< its values have commas between
-  Option& list_alone();                   ///< and what follows after a blank is none of them
+  Option& list();                         ///< its values have commas between; what follows after a blank is none
   Option& repeated();                     ///< it takes one value, and may be given again
   Option& required();
 
@@ -93,8 +92,6 @@ class Subcommand {
                 const std::string& meaning);
 
   Option flag(const std::string& name, bool& value, const std::string& meaning);
-  /// One that may have a value, as --truth{rmse}, and this one without.
-  Option flag(const std::string& name, std::string& value, const std::string& meaning);
 
   /// Words with commas between; those that have a comma are in double quotes. What follows after a blank is none of
   /// them.
@@ -102,9 +99,6 @@ class Subcommand {
 
   /// Three numbers with commas between.
   Option triple(const std::string& name, std::optional<std::array<double, 3>>& values, const std::string& meaning);
-
-  /// One that was added before.
-  Option option(const std::string& name);
 
   void run(const std::function<void()>& work);
 

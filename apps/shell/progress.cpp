@@ -4,7 +4,6 @@
 #include <cmath>
 #include <exception>
 #include <map>
-#include <mutex>
 #include <thread>
 
 #include <sys/ioctl.h>
@@ -79,11 +78,6 @@ void Progress::advance(std::uint64_t work) {
   const std::size_t width = display_width(text), left_over = shown_ > width ? shown_ - width : 0;
   write_all(terminal_, "\r" + text + std::string(left_over, ' ') + std::string(left_over, '\b'));
   shown_ = width;
-}
-
-void Progress::tell(std::string_view label) {
-  const std::lock_guard lock{advancing_};
-  label_ = printable(label);
 }
 
 void Progress::finish() {

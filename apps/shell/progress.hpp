@@ -50,9 +50,6 @@ class Progress {
   /// Adds to the work done; any thread may call it.
   void advance(std::uint64_t work = 1);
 
-  /// Says what is being done from now on, in place of the label; any thread may call it.
-  void tell(std::string_view label);
-
   /// Wipes the line; nothing is drawn afterwards.
   void finish();
 
@@ -65,7 +62,7 @@ class Progress {
  private:
   using Clock = std::chrono::steady_clock;
 
-  std::string label_;
+  const std::string label_;
   const std::uint64_t total_;
   const int terminal_;
   const bool silent_;

@@ -1,11 +1,14 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <numbers>
 #include <span>
+
+#include <Random123/philox.h>
 
 namespace sigmax::apps {
 
@@ -36,7 +39,9 @@ class RandomStream {
   }
 
   /// One of `size` outcomes, all equally probable.
-  std::size_t index(std::size_t size);
+  std::size_t index(std::size_t size) {
+    return std::min(size - 1, static_cast<std::size_t>(uniform() * static_cast<double>(size)));
+  }
 
   /// A number of events of this mean rate, up to 500: the Poisson distribution by Knuth's product of uniforms.
   std::size_t count(double mean) {
@@ -46,17 +51,26 @@ class RandomStream {
   }
 
   /// An outcome with these probabilities; they may miss a sum of one by rounding.
-  std::size_t draw(std::span<const double> probabilities);
+  std::size_t draw(std::span<const double> probabilities) {
+    const double u = uniform();
+    double sum = 0.0;
+    std::size_t last = 0;
+    for (std::size_t i = 0; i < probabilities.size() && sum <= u; ++i)
+      if (probabilities[i] > 0.0) sum += probabilities[last = i];
+    return last;
+  }
 
  private:
   std::uint64_t next() {
-    if (used_ == block_.size()) refill();
+    if (used_ == block_.size()) {
+      block_ = r123::Philox4x64{}({{blocks_++, stream_, 0, 0}}, {{seed_, 0}});
+      used_ = 0;
+    }
     return block_[used_++];
   }
-  void refill();
 
   std::uint64_t seed_, stream_, blocks_ = 0;
-  std::array<std::uint64_t, 4> block_{};
+  r123::Philox4x64::ctr_type block_{};
   std::size_t used_ = block_.size();
   double spare_ = 0.0;
   bool has_spare_ = false;

@@ -7,7 +7,6 @@
 #include <toml++/toml.h>
 
 #include "shell/files.hpp"
-#include "shell/text.hpp"
 
 namespace sigmax::apps {
 

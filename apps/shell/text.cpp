@@ -4,10 +4,7 @@
 #include <array>
 #include <cctype>
 #include <charconv>
-#include <clocale>
 #include <cmath>
-#include <cstddef>
-#include <cwchar>
 #include <system_error>
 
 namespace sigmax::apps {
@@ -77,21 +74,14 @@ std::string toml_value(std::string_view value) {
 }
 
 std::size_t display_width(std::string_view text) {
-  static const locale_t utf8 = ::newlocale(LC_CTYPE_MASK, "C.UTF-8", nullptr);
-  const locale_t before = ::uselocale(utf8);
   std::size_t width = 0;
-  for (std::mbstate_t state{}; !text.empty();) {
-    wchar_t character = 0;
-    std::size_t size = std::mbrtowc(&character, text.data(), text.size(), &state);
-    const bool known = size > 0 && size <= text.size() && ::wcwidth(character) >= 0;
-    if (!known) {  // a byte that is no text
-      state = {};
-      size = 1;
-    }
-    width += known ? static_cast<std::size_t>(::wcwidth(character)) : 1;
-    text.remove_prefix(size);
+  while (!text.empty()) {
+    utf8proc_int32_t character = 0;
+    const auto size = utf8proc_iterate(reinterpret_cast<const utf8proc_uint8_t*>(text.data()),
+                                       static_cast<utf8proc_ssize_t>(text.size()), &character);
+    width += size > 0 ? static_cast<std::size_t>(utf8proc_charwidth(character)) : 1;  // or a byte that is no text
+    text.remove_prefix(size > 0 ? static_cast<std::size_t>(size) : 1);
   }
-  ::uselocale(before);
   return width;
 }
 

@@ -8,7 +8,6 @@
 #include <cerrno>
 #include <charconv>
 
-#include "shell/command_line.hpp"
 #include "shell/files.hpp"
 #include "shell/text.hpp"
 

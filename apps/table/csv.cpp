@@ -8,7 +8,6 @@
 #include <system_error>
 
 #include "shell/files.hpp"
-#include "shell/text.hpp"
 
 namespace sigmax::apps {
 namespace {

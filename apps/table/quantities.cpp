@@ -1,7 +1,5 @@
 #include "table/quantities.hpp"
 
-#include "shell/text.hpp"
-
 namespace sigmax::apps {
 namespace {
 

@@ -1,8 +1,6 @@
 #include "table/timestamp.hpp"
 
-#include <chrono>
 #include <cmath>
-#include <cstdint>
 #include <ctime>
 
 #include "shell/text.hpp"
@@ -25,32 +23,12 @@ bool take(std::string_view& text, std::string_view form, std::initializer_list<i
   return true;
 }
 
-struct TimeOfDay {
-  std::int64_t whole_s;
-  double fraction_s;
-};
-
 /// Takes a fraction of a second, if any; nothing of a point without digits.
 std::optional<double> take_fraction(std::string_view& text) {
   if (!take(text, ".") && !take(text, ",")) return 0.0;
   std::string fraction = "0.";
   for (std::string_view left = text; take(text, "0"); left = text) fraction += left[0];
   return fraction.size() == 2 ? std::nullopt : parse_number(fraction);
-}
-
-/// Takes hh:mm:ss, and a fraction if any.
-std::optional<TimeOfDay> take_time_of_day(std::string_view& text) {
-  int hour = 0, minute = 0, second = 0;
-  if (!take(text, "00:00:00", {&hour, &minute, &second})) return std::nullopt;
-  const auto fraction = take_fraction(text);
-  if (hour > 23 || minute > 59 || second > 60 || !fraction) return std::nullopt;
-  return TimeOfDay{(hour * 60 + minute) * 60 + second, *fraction};
-}
-
-std::optional<double> parse_time_of_day(std::string_view text) {
-  const auto time = take_time_of_day(text);
-  if (!time || !text.empty()) return std::nullopt;
-  return static_cast<double>(time->whole_s) + time->fraction_s;
 }
 
 /// Minutes ahead of UTC of "+hh:mm", "+hhmm" or "+hh"; none of "Z" or nothing. As Go writes them, "UTC" may follow.
@@ -66,25 +44,17 @@ std::optional<int> offset_minutes(std::string_view zone) {
   return (ahead ? 1 : -1) * (60 * hours + minutes);
 }
 
-std::optional<double> parse_date_and_time(std::string_view text) {
-  using namespace std::chrono;
-  int y = 0, m = 0, d = 0;
-  if (!take(text, "0000-00-00T", {&y, &m, &d})) return std::nullopt;
-  const year_month_day date{year{y}, month{static_cast<unsigned>(m)}, day{static_cast<unsigned>(d)}};
-  const auto time = take_time_of_day(text);
-  const auto offset = offset_minutes(trimmed(text));
-  if (!date.ok() || !time || !offset) return std::nullopt;
-  const auto day_number = std::int64_t{sys_days{date}.time_since_epoch().count()};
-  return static_cast<double>(day_number * 86400 + time->whole_s - 60 * *offset) + time->fraction_s;
-}
-
 }  // namespace
 
 std::optional<double> parse_timestamp(std::string_view text) {
   text = trimmed(text);
   if (const auto seconds = parse_number(text)) return seconds;
-  if (const auto seconds = parse_time_of_day(text)) return seconds;
-  return parse_date_and_time(text);
+  std::string cell(text);
+  bool of_day = false;
+  if (is_time_of_day(text)) return parse_timestamp(text, "%H:%M:%S", of_day);
+  if (!take(text, "0000-00-00T00:00:00")) return std::nullopt;
+  cell[std::string_view("0000-00-00").size()] = ' ';
+  return parse_timestamp(cell, "%Y-%m-%d %H:%M:%S", of_day);
 }
 
 std::optional<double> parse_timestamp(std::string_view text, const std::string& format, bool& of_day) {
@@ -101,10 +71,11 @@ std::optional<double> parse_timestamp(std::string_view text, const std::string& 
     parsed.tm_year = 70;
   }
   std::tm date = parsed;
-  const std::time_t seconds = ::timegm(&date);
-  if (!fraction || !zone || date.tm_mday != parsed.tm_mday)
+  date.tm_sec = 0;  // a leap second is of the next minute
+  const std::time_t minute = ::timegm(&date);
+  if (!fraction || !zone || parsed.tm_sec > 60 || date.tm_mday != parsed.tm_mday)
     return std::nullopt;  // strptime takes the 31st of any month
-  return static_cast<double>(seconds - parsed.tm_gmtoff - 60 * *zone) + *fraction;
+  return static_cast<double>(minute + parsed.tm_sec - parsed.tm_gmtoff - 60 * *zone) + *fraction;
 }
 
 std::string_view time_format_warning(std::string_view format) {
@@ -113,7 +84,13 @@ std::string_view time_format_warning(std::string_view format) {
   return has_half && format.find("%I") == format.npos ? "%p goes with hours up to 12, %I" : "";
 }
 
-bool is_time_of_day(std::string_view text) { return parse_time_of_day(trimmed(text)).has_value(); }
+bool is_time_of_day(std::string_view text) {
+  text = trimmed(text);
+  bool of_day = false;
+  const bool is_bare =
+      text.find_first_not_of("0123456789:.,") == text.npos && parse_timestamp(text, "%H:%M:%S", of_day);
+  return is_bare && take(text, "00:00:00");
+}
 
 double midnight_before(double time) { return std::floor(time / day_s) * day_s; }
 

@@ -33,7 +33,7 @@
 #include <sigmax/hybrid/history_filter.hpp>
 #include <sigmax/hybrid/interacting_multiple_model.hpp>
 
-#include "himm_demo/experiment/scenario.hpp"
+#include "himm_demo/experiment/tally.hpp"
 #include "shell/progress.hpp"
 #include "shell/random.hpp"
 

@@ -6,41 +6,6 @@
 namespace sigmax::apps {
 namespace {
 
-/// Leads all scans through the tracker, and writes tracks.csv and detections.csv.
-AssociateHistory run_associate(const AssociateOptions& options, RecordingReader& recording, ScanReader& scans,
-                               const FilterSettings& filter, MultiTargetTracker& tracker, ResultFiles& files) {
-  const int axes = recording.axes();
-  AssociateHistory history(axes);
-  EstimatesFile tracks(&files, {filter}, recording, true);
-  RowFile detections(files, "detections.csv", {"line", "time_s", "track", "support"});
-  const auto total = recording.csv().bytes_total();
-  Progress progress(recording.file(), total.value_or(1), options.output.quiet || !total);
-  for (Scan scan; scans.next(scan);) {
-    try {
-      tracker.scan(each(scan, &Row::detection));
-    } catch (const std::logic_error& error) {
-      throw InputError("{}:{}: scan of lines {} to {}: {}; look for an outlier here, and at the settings of the filter",
-                       recording.file(), scan.front().line, scan.front().line, scan.back().line, error.what());
-    }
-    for (const DetectionOwner& owner : tracker.owners()) {
-      const Row& row = scan[owner.tag];
-      detections.write({row.line > 0 ? Cell(row.line) : Cell(), row.detection.time,
-                        owner.track ? Cell(*owner.track) : Cell(), owner.support});
-    }
-    const auto updated = tracker.tracks(), predicted = tracker.tracks(tracker.time());
-    history.add(tracker, scan, predicted);
-    for (std::size_t i = 0; i < predicted.size(); ++i) {
-      if (!predicted[i].confirmed) continue;
-      const bool seen = updated[i].point.time >= scan.front().detection.time;
-      const auto& [number, estimate, existence, _, confirmed, first_time, detected] = (seen ? updated : predicted)[i];
-      const EarthPoint point = scans.frame() ? on_earth(estimate, *scans.frame(), axes) : EarthPoint{estimate, {}};
-      tracks.write(std::to_string(number), filter, point, existence);
-    }
-    progress.advance(recording.csv().bytes_read() - progress.done());
-  }
-  return history;
-}
-
 void associate(const AssociateOptions& options) {
   RecordingOptions what = options.recording;
   const auto filters = filters_for(what, options.filters, options.radar.sigma, associate_defaults());
@@ -62,22 +27,48 @@ void associate(const AssociateOptions& options) {
                      recording.file());
   refuse_to_overwrite(options.output, {what.file, options.filters.config}, {"tracks.csv", "detections.csv"});
   ResultFiles files(options.output);
+  EstimatesFile tracks_file(&files, filters, recording, true);
+  RowFile detections_file(files, "detections.csv", {"line", "time_s", "track", "support"});
   ScanReader scans(options, recording, filter);
-  const NamedAssociation& association = associations[options.association];
-  MultiTargetTracker tracker = tracker_for(options, filter, recording.axes(), association.choice);
-  const AssociateHistory history = run_associate(options, recording, scans, filter, tracker, files);
+  const int axes = recording.axes();
+  MultiTargetTracker tracker = tracker_for(options, filter, axes, options.association.choice);
+  AssociateHistory history(axes);
+  Progress progress(recording.file(), scans.scans(), options.output.quiet);
+  for (Scan scan; scans.next(scan);) {
+    try {
+      tracker.scan(each(scan, &Row::detection));
+    } catch (const std::logic_error& error) {
+      throw InputError("{}:{}: scan of lines {} to {}: {}; look for an outlier here, and at the settings of the filter",
+                       recording.file(), scan.front().line, scan.front().line, scan.back().line, error.what());
+    }
+    for (const DetectionOwner& owner : tracker.owners()) {
+      const Row& row = scan[owner.tag];
+      detections_file.write({row.line > 0 ? Cell(row.line) : Cell(), row.detection.time,
+                             owner.track ? Cell(*owner.track) : Cell(), owner.support});
+    }
+    const auto updated = tracker.tracks(), predicted = tracker.tracks(tracker.time());
+    history.add(tracker, scan, predicted);
+    for (std::size_t i = 0; i < predicted.size(); ++i) {
+      if (!predicted[i].confirmed) continue;
+      const bool seen = updated[i].point.time >= scan.front().detection.time;
+      const auto& [number, estimate, existence, _, confirmed, first_time, detected] = (seen ? updated : predicted)[i];
+      const EarthPoint point = scans.frame() ? on_earth(estimate, *scans.frame(), axes) : EarthPoint{estimate, {}};
+      tracks_file.write(std::to_string(number), filter, point, existence);
+    }
+    progress.advance();
+  }
+  progress.finish();
 
-  constexpr std::size_t most_printed = 20;  // tracks
   Result result(options.output);
-  const ResultTable tracks = history.tracks();
-  const std::size_t confirmed = tracks.rows(), at_the_end = history.at_the_end();
+  const std::size_t confirmed = history.confirmed();
+  const auto at_the_end = std::ranges::count_if(tracker.tracks(tracker.time()), &TrackedTarget::confirmed);
   const std::size_t detections = history.detections(), explained = history.detections(true);
   const std::string verdict = tracker.finding().value_or(
       fmt::format("{} confirmed track{}, {} of them at the end; {} of {} detections are explained", confirmed,
                   confirmed == 1 ? "" : "s", at_the_end, explained, detections));
-  result.facts("file", recording.file(), "association", association.name, "filter", filter.name, "seed", options.seed,
-               "rows", scans.rows(), "scans", tracker.scans(), "detections", detections, "explained", explained,
-               "exact", tracker.exact(), "verdict", verdict);
+  result.facts("file", recording.file(), "association", options.association.name, "filter", filter.name, "seed",
+               options.seed, "rows", scans.rows(), "scans", tracker.scans(), "detections", detections, "explained",
+               explained, "exact", tracker.exact(), "verdict", verdict);
   result.facts_at({"tracks"}, "confirmed", confirmed, "at_the_end", at_the_end);
   if (const auto& frame = scans.frame())
     result.facts_at({"origin"}, "latitude_deg", frame->origin().latitude_deg, "longitude_deg",
@@ -85,7 +76,7 @@ void associate(const AssociateOptions& options) {
   result.fact({"settings_toml"}, as_toml(filters));
   result.say("Verdict: {}", verdict);
   result.say("{}: {} rows, {} scans, {} detections; association {}, filter {}", recording.file(), scans.rows(),
-             tracker.scans(), detections, association.name, filter.name);
+             tracker.scans(), detections, options.association.name, filter.name);
   result.say("Taken for: {}", recording.taken());
   for (const std::string& note : scans.notes()) result.say(note);
   if (!tracker.exact())
@@ -100,16 +91,15 @@ void associate(const AssociateOptions& options) {
   result.page.verdict = {verdict};
   result.page.panels.emplace_back(Words{"The recording", result.text});
   if (files.report_wanted()) history.add_to(result.page, recording.on_the_earth());
-  if (confirmed > 0)
-    result.add(tracks,
-               {.printed = confirmed <= most_printed, .summary = {"tracks", "each"}, .title = "Confirmed tracks"});
   if (recording.has_tracks()) {
-    const Score score = history.score(options.cutoff);
+    const double cutoff = options.cutoff.value_or(history.usual_cutoff());
+    std::vector<Field> score = history.score(cutoff);
+    score.insert(score.begin(), {of_words("of", "tracks by"), options.association.name});
     ResultTable table;
-    table.row_of(fields_of(association.name, [&](Score::Figure figure) { return score.values[figure]; }));
+    table.row_of(score);
     result.add(table, {.summary = {"score"}, .title = "Tracks and labels"});
-    result.facts_at({"score"}, "cutoff_m", score.cutoff);
-    result.say("RMS GOSPA with c = {:.3g} m, p = 2; the squares of its parts add up to its square", score.cutoff);
+    result.facts_at({"score"}, "cutoff_m", cutoff);
+    result.say("RMS GOSPA with c = {:.3g} m, p = 2; the squares of its parts add up to its square", cutoff);
   }
   result.page.last.emplace_back(Words{"Settings in force", as_toml(filters), true});
   result.publish(files);
@@ -134,11 +124,11 @@ FilterDefaults associate_defaults() {
 void add_associate(CLI::App& program, const std::string& command) {
   Subcommand app(program, "associate", "Finds the targets behind unlabelled detections, and tracks them.");
   const auto options = std::make_shared<AssociateOptions>();
-  const auto names = each(situations, &NamedSituation::name);
+  const auto names = each(situations, &Situation::name);
   app.option("file", options->recording.file, "A recording as of track; - is the standard input");
   app.choice(
          "--association", each(associations, [](const auto& one) { return std::string(one.name); }),
-         [options](int of) { options->association = static_cast<std::size_t>(of); },
+         [options](int of) { options->association = associations[static_cast<std::size_t>(of)]; },
          "Kinds of pattern and permutation: random and random (jpda), random and fuzzy (jpda_star), fuzzy and fuzzy "
          "(gnn), fuzzy and random [jpda_star]")
       .text("jpda|jpda_star|gnn|fuzzy_random");

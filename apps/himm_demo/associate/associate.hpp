@@ -1,7 +1,5 @@
 #pragma once
 
-#include <deque>
-
 #include <sigmax/estimation/trajectory_gospa.hpp>
 #include <sigmax/hybrid/multi_target_tracker.hpp>
 
@@ -25,7 +23,7 @@ struct AssociateOptions {
   RecordingOptions recording;  ///< whose tracks are the labels
   RadarOptions radar;
   FilterOptions filters;
-  std::size_t association = 1;    ///< its place among them
+  NamedAssociation association = associations[1];
   MultiTargetRules rules;         ///< whose gate is that of the settings
   std::optional<double> scan_s;   ///< how long a scan takes
   std::optional<double> clutter;  ///< false detections a scan of simulated radars, on average
@@ -49,43 +47,32 @@ MultiTargetTracker tracker_for(const AssociateOptions& options, const FilterSett
 /// What settings of associate are by default: a radar's measurements stay in its own space, where clutter is uniform.
 FilterDefaults associate_defaults();
 
-/// What makes association hard; its name, and what the tracks need to know of its targets.
-enum class Situation {
-  crossing,     ///< two targets cross at 30°
-  parallel,     ///< two targets approach, fly 100 m apart for 60 s, and separate
-  splitting,    ///< a second target begins where the first one is, and turns away
-  manoeuvring,  ///< three targets turn at 6°/s, two of them towards each other
-  dense,        ///< twelve targets in 8 km × 8 km, with 60 false detections a scan
-  meeting  ///< four targets meet in a point, and one dies there, as in García-Fernández et al. (IEEE TAES 54:1883)
-};
-struct NamedSituation {
+/// A situation that makes association hard, and what tracks need to know of its targets.
+struct Situation {
   std::string name;
   std::optional<double> greatest_speed{};  ///< in m/s
   std::vector<std::string> sets{};
 };
-inline const std::vector<NamedSituation> situations = {
-    {"crossing"},    {"parallel"},     {"splitting"},
-    {"manoeuvring"}, {"dense", 100.0}, {"meeting", 3.0, {"sigma_w=0.1", "models=[dwna]"}}};
-
-/// How the targets are seen. What is absent is the situation's own.
-struct Visibility {
-  double detection_probability = 0.9;
-  std::optional<double> false_detections{};  ///< the mean number in a scan
-  int radars = 0;  ///< that take turns, at the corners of the area, with ranges and azimuths; 0: positions are measured
-};
+inline const std::vector<Situation> situations = {
+    {"crossing"},      // two targets cross at 30°
+    {"parallel"},      // two targets approach, fly 100 m apart for 60 s, and separate
+    {"splitting"},     // a second target begins where the first one is, and turns away
+    {"manoeuvring"},   // three targets turn at 6°/s, two of them towards each other
+    {"dense", 100.0},  // twelve targets in 8 km × 8 km, with 60 false detections a scan
+    // Four targets meet in a point, and one dies there, as in García-Fernández et al. (IEEE TAES 54:1883).
+    {"meeting", 3.0, {"sigma_w=0.1", "models=[dwna]"}}};
 
 /// A situation as a seed draws it.
 struct Scene {
-  double false_detections;  ///< the mean number in a scan
   /// Of each scan all detections in no order, then a row without a measurement for each target that was missed. Their
   /// tracks are the targets, "1", "2", …, or empty; their truth is where the target was, x and y in m.
   std::vector<Scan> scans{};
   std::vector<Trajectory> truth{};  ///< x and y in m of each target
 };
 
-/// Draws a situation: truth and detections depend on the seed alone, and the truth not on the visibility. Throws
-/// std::invalid_argument unless the probability of detection is in [0, 1], and numbers are in [0, 500] and [0, 4].
-Scene simulate(Situation situation, std::uint64_t seed, const Visibility& visibility = {});
+/// Draws the situation of the options as they say that it is seen: positions, or the ranges and azimuths of radars that
+/// take turns at the corners of the area. It depends on the seed alone, and the truth not on how it is seen.
+Scene simulate(const AssociateOptions& options, std::uint64_t seed);
 
 /// `himm_demo associate --simulate`: writes a situation, or evaluates every association on many runs.
 void simulate_situation(AssociateOptions options);
@@ -104,11 +91,11 @@ std::optional<Known> between(const std::vector<Known>& path, double time);
 /// Reads a recording scan by scan: by --scan, rows of equal times, or turns of a radar.
 class ScanReader {
  public:
-  /// What it is made of must live as long.
+  /// Reads all rows. What it is made of must live as long. Throws InputError with file, line and column, and where
+  /// nothing tells what a scan is.
   ScanReader(const AssociateOptions& options, RecordingReader& recording, const FilterSettings& filter);
 
-  /// The next scan; false at the end. Throws InputError with file, line and column, and where nothing tells what a scan
-  /// is.
+  /// The next scan; false at the end.
   bool next(Scan& scan);
 
   /// The frame of positions on the Earth.
@@ -118,15 +105,13 @@ class ScanReader {
   std::vector<std::string> notes() const;
 
   std::size_t rows() const { return rows_; }
+  std::size_t scans() const { return size_; }
 
  private:
-  bool read(Row& row);
-  bool fill(std::size_t rows);
-  void choose();
-  bool begins_scan(const Row& row);
-  double turned(const Row& row);
-  bool simulated(Scan& scan);
-  void read_truth();
+  void place(Row& row);
+  void split(std::vector<Row>& rows);
+  void take_for_truth(const std::vector<Row>& rows);
+  Scan simulated(double time);
 
   const AssociateOptions& options_;
   RecordingReader& recording_;
@@ -134,42 +119,15 @@ class ScanReader {
   int axes_ = recording_.axes();
   SensorPlaces places_{filter_, recording_, options_.radar.place()};
   std::optional<LocalFrame> frame_;
-  std::deque<Row> waiting_;
-  std::deque<Scan> scans_;  // of one window, by sensor
-  bool chosen_ = false;
-  double turn_ = 0.0;  // which way azimuths go: 1 or −1; 0 for equal times
-  double azimuth_ = nan, angle_ = 0.0, first_time_ = nan, time_ = nan;
-  std::size_t number_ = 0;  // of the window, or of the turn
-  std::size_t rows_ = 0, unplaced_ = 0;
+  std::vector<Scan> scans_;
+  std::string scan_is_;
+  std::size_t rows_ = 0, unplaced_ = 0, size_ = 0, number_ = 0;
   // Of a simulated radar: where everybody was, and what it may take for a target.
   std::map<std::string, std::vector<Known>> truth_;
   RandomStream random_{options_.seed, 0};
-  double greatest_range_ = 0.0, least_elevation_ = 0.0, greatest_elevation_ = 0.0, last_time_ = -infinity;
+  double first_time_ = infinity, last_time_ = -infinity;
+  double greatest_range_ = 0.0, least_elevation_ = infinity, greatest_elevation_ = 0.0;
 };
-
-/// How well tracks show the targets of a recording: RMS GOSPA over scans (α = 2, p = 2) and its parts, in m, whose
-/// squares add up to its square; and what concerns whole tracks.
-struct Score {
-  enum Figure : std::size_t {
-    gospa,
-    localisation,
-    missed,
-    false_targets,
-    switches,         ///< by trajectory GOSPA: a target that goes on with another track
-    false_tracks,     ///< no target's in most of their scans
-    time_to_confirm,  ///< s, the mean over targets that have a track, from their first detection on
-    untracked,        ///< targets that never have a track
-    targets
-  };
-  static constexpr std::size_t figures = 9;
-
-  double cutoff = nan;  ///< c in m
-  std::array<double, figures> values{};
-  double& operator[](Figure figure) { return values[figure]; }
-};
-
-/// A row of them; each cell is what a function makes of a figure.
-std::vector<Field> fields_of(const std::string& name, const std::function<Cell(Score::Figure)>& cell);
 
 /// Keeps where targets were and confirmed tracks are, scan by scan.
 class AssociateHistory {
@@ -180,14 +138,15 @@ class AssociateHistory {
   /// what the tracker made of it, and all its tracks at its time.
   void add(const MultiTargetTracker& tracker, const Scan& scan, const std::vector<TrackedTarget>& tracks);
 
-  /// By that cut-off; without it ten times the median standard deviation of a position.
-  Score score(std::optional<double> cutoff) const;
+  /// How well tracks show the targets, as fields of a row: RMS GOSPA over scans (α = 2, p = 2) and its parts, in m,
+  /// whose squares add up to its square; and what concerns whole tracks.
+  std::vector<Field> score(double cutoff) const;
 
-  /// A row for each confirmed track.
-  ResultTable tracks() const;
+  /// Ten times the median standard deviation of a position.
+  double usual_cutoff() const;
 
-  /// How many of these there are after the last scan.
-  std::size_t at_the_end() const;
+  /// How many tracks were confirmed.
+  std::size_t confirmed() const { return tracks_.size(); }
 
   /// All detections, or those of confirmed tracks.
   std::size_t detections(bool explained = false) const;
@@ -201,8 +160,6 @@ class AssociateHistory {
   struct Track {
     Trajectory path;
     std::vector<double> existence;
-    double first_time;
-    std::size_t detected;
   };
 
   int axes_;

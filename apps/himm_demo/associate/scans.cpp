@@ -2,8 +2,6 @@
 
 #include "himm_demo/associate/associate.hpp"
 
-#include "shell/text.hpp"
-
 namespace sigmax::apps {
 namespace {
 
@@ -18,111 +16,97 @@ double turn_between(double from, double to, double direction) {
   return turn - whole_turn * std::floor(turn / whole_turn) - backwards;
 }
 
-}  // namespace
-
-ScanReader::ScanReader(const AssociateOptions& options, RecordingReader& recording, const FilterSettings& filter)
-    : options_(options), recording_(recording), filter_(filter) {
-  if (options.radar.sigma) read_truth();
-}
-
-/// The next row with its detection in the frame of all.
-bool ScanReader::read(Row& row) {
-  if (!recording_.next(row)) return false;
-  row.sensor = recording_.has_sensors() ? row.sensor : "";
-  if (!options_.radar.sigma) places_.place(row);
-  AnyDetection& detection = row.detection;
-  if (recording_.geodetic() && detection.sensor == Sensor::components) {
-    const auto here = place_of(detection, axes_);
-    if (here && !frame()) frame_.emplace(recording_.origin().value_or(*here), axes_);
-    detection =
-        here ? in_frame(detection, *frame(), frame()->to_local(*here), axes_) : AnyDetection::missed(detection.time);
-    if (!here) ++unplaced_;
-  }
-  ++rows_;
-  return true;
-}
-
-/// Whether so many rows wait.
-bool ScanReader::fill(std::size_t rows) {
-  for (Row row; waiting_.size() < rows && read(row);) waiting_.push_back(std::move(row));
-  return waiting_.size() >= rows;
-}
-
-/// Finds out what a scan is: rows of equal times, or a turn.
-void ScanReader::choose() {
-  chosen_ = true;
-  if (options_.scan_s) return;
-  fill(looked_at);
+/// Which way the azimuths of a radar go round, 1 or −1; 0 where a scan is rows of equal times.
+double direction_of_turns(std::span<const Row> rows, const std::string& file) {
   std::size_t equal = 0;
   double forwards = 0.0, back = 0.0;
-  for (std::size_t i = 1; i < waiting_.size(); ++i) {
-    const AnyDetection &one = waiting_[i - 1].detection, &next = waiting_[i].detection;
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    const AnyDetection &one = rows[i - 1].detection, &next = rows[i].detection;
     if (next.time == one.time) ++equal;
     forwards += turn_between(one.z[1], next.z[1], 1.0);
     back += turn_between(one.z[1], next.z[1], -1.0);
   }
-  const bool all_polar = std::ranges::all_of(waiting_, [&](const Row& row) {
+  if (3 * equal >= rows.size()) return 0.0;
+  const bool is_of_one_radar = std::ranges::all_of(rows, [&](const Row& row) {
     return (row.detection.sensor == Sensor::polar || row.detection.sensor == Sensor::doppler) &&
-           row.sensor == waiting_[0].sensor;
+           row.sensor == rows[0].sensor;
   });
-  if (3 * equal >= waiting_.size()) return;
   const double least = std::min(forwards, back);
-  if (!all_polar || least < 2.0 * whole_turn || least > 0.4 * whole_turn * static_cast<double>(waiting_.size()))
+  if (!is_of_one_radar || least < 2.0 * whole_turn || least > 0.4 * whole_turn * static_cast<double>(rows.size()))
     throw InputError(
         "{}: neither equal times nor azimuths that go round tell which rows are of one scan; say how long "
         "a scan takes, with --scan SECONDS",
-        recording_.file());
-  turn_ = forwards < back ? 1.0 : -1.0;
+        file);
+  return forwards < back ? 1.0 : -1.0;
 }
 
-/// Whether a row is the first of another scan than the row before.
-bool ScanReader::begins_scan(const Row& row) {
-  const double time = row.detection.time, before = std::exchange(time_, time);
-  if (std::isnan(before)) first_time_ = time;
-  if (options_.scan_s) {
-    const auto window = static_cast<std::size_t>((time - first_time_) / *options_.scan_s * (1.0 + 1e-12) + 1e-9);
-    return std::exchange(number_, window) != window;
-  }
-  if (turn_ == 0.0) return time != before;
-  if (!row.measured()) return false;
-  if (!std::isnan(azimuth_)) angle_ += turn_between(azimuth_, row.detection.z[1], turn_);
-  azimuth_ = row.detection.z[1];
-  const auto turn = std::max(number_, static_cast<std::size_t>(std::max(0.0, angle_ / whole_turn)));
-  return std::exchange(number_, turn) != turn;
+}  // namespace
+
+ScanReader::ScanReader(const AssociateOptions& options, RecordingReader& recording, const FilterSettings& filter)
+    : options_(options), recording_(recording), filter_(filter) {
+  std::vector<Row> rows;
+  for (Row row; recording.next(row); rows.push_back(row)) place(row);
+  rows_ = rows.size();
+  if (rows.empty()) return;
+  options.radar.sigma ? take_for_truth(rows) : split(rows);
 }
 
-bool ScanReader::next(Scan& scan) {
-  scan.clear();
-  if (options_.radar.sigma) return simulated(scan);
-  if (!chosen_) choose();
-  if (scans_.empty()) {
-    if (!fill(1)) return false;
-    if (std::isnan(time_)) begins_scan(waiting_.front());
-    std::map<std::string, std::size_t> place;  // of each sensor's scan
-    const std::size_t now = number_;
-    for (bool first = true; fill(1) && (first || !begins_scan(waiting_.front())); first = false) {
-      Row& row = waiting_.front();
-      const auto [found, is_new] = place.emplace(row.sensor, scans_.size());
-      if (is_new) scans_.emplace_back();
-      row.detection = with_sensor_noise(filter_, row.sensor, row.detection, axes_);
-      scans_[found->second].push_back(std::move(row));
-      waiting_.pop_front();
+/// Brings the row's detection into the frame of all.
+void ScanReader::place(Row& row) {
+  row.sensor = recording_.has_sensors() ? row.sensor : "";
+  if (!options_.radar.sigma) places_.place(row);
+  AnyDetection& detection = row.detection;
+  if (!recording_.geodetic() || detection.sensor != Sensor::components) return;
+  const auto here = place_of(detection, axes_);
+  if (here && !frame()) frame_.emplace(recording_.origin().value_or(*here), axes_);
+  detection =
+      here ? in_frame(detection, *frame(), frame()->to_local(*here), axes_) : AnyDetection::missed(detection.time);
+  if (!here) ++unplaced_;
+}
+
+/// Of each window, turn or time the scans of its sensors; and scans without a detection for windows without a row.
+void ScanReader::split(std::vector<Row>& rows) {
+  const double first_time = rows.front().detection.time;
+  double turn = 0.0, azimuth = nan, before = first_time, angle = 0.0;
+  if (!options_.scan_s)
+    turn = direction_of_turns(std::span(rows).first(std::min(rows.size(), looked_at)), recording_.file());
+  std::size_t number = 0, begin = 0;  // of the window, and of its first scan
+  for (Row& row : rows) {
+    const double time = row.detection.time;
+    std::size_t now = number;
+    if (options_.scan_s) {
+      now = static_cast<std::size_t>((time - first_time) / *options_.scan_s * (1.0 + 1e-12) + 1e-9);
+    } else if (turn == 0.0) {
+      now += std::exchange(before, time) != time ? 1U : 0U;
+    } else if (row.measured()) {
+      if (!std::isnan(azimuth)) angle += turn_between(azimuth, row.detection.z[1], turn);
+      azimuth = row.detection.z[1];
+      now = std::max(number, static_cast<std::size_t>(std::max(0.0, angle / whole_turn)));
     }
-    for (std::size_t k = now + 1; options_.scan_s && k < std::min(number_, now + most_empty); ++k)
-      scans_.push_back(
-          {Row{.detection = AnyDetection::missed(first_time_ + static_cast<double>(k) * *options_.scan_s)}});
+    if (now != number) {
+      for (std::size_t k = number + 1; options_.scan_s && k < std::min(now, number + most_empty); ++k)
+        scans_.push_back({{.detection = AnyDetection::missed(first_time + static_cast<double>(k) * *options_.scan_s)}});
+      number = now;
+      begin = scans_.size();
+    }
+    const auto sensor = [](const Scan& scan) { return scan.front().sensor; };
+    auto own = std::ranges::find(scans_.begin() + static_cast<std::ptrdiff_t>(begin), scans_.end(), row.sensor, sensor);
+    if (own == scans_.end()) own = scans_.insert(own, Scan());
+    row.detection = with_sensor_noise(filter_, row.sensor, row.detection, axes_);
+    row.detection.tag = own->size();
+    own->push_back(std::move(row));
   }
-  scan = std::move(scans_.front());
-  scans_.pop_front();
-  for (std::size_t i = 0; i < scan.size(); ++i) scan[i].detection.tag = i;
-  return true;
+  size_ = scans_.size();
+  const double turn_s = whole_turn * (rows.back().detection.time - first_time) / angle;
+  scan_is_ = options_.scan_s ? fmt::format("{} s, as --scan says", shortest(*options_.scan_s))
+             : turn == 0.0   ? "the rows of one time"
+                             : fmt::format("one turn of the radar, {:.3g} s on average, as the azimuths tell", turn_s);
 }
 
-/// Takes the recording for the truth: the positions of each label.
-void ScanReader::read_truth() {
-  first_time_ = least_elevation_ = infinity;
-  greatest_elevation_ = 0.0;
-  for (Row row; read(row);) {
+/// The positions of each label.
+void ScanReader::take_for_truth(const std::vector<Row>& rows) {
+  scan_is_ = fmt::format("{} s, as --scan says", shortest(*options_.scan_s));
+  for (const Row& row : rows) {
     const auto at = position_of(row.detection, axes_);
     if (!at || axes_seen(row.detection, axes_) < axes_) continue;
     const Position from = options_.radar.place();
@@ -134,13 +118,23 @@ void ScanReader::read_truth() {
     last_time_ = std::max(last_time_, row.detection.time);
     truth_[row.track].push_back({row.detection.time, row.line, *at});
   }
+  if (!truth_.empty()) size_ = 1 + static_cast<std::size_t>((last_time_ - first_time_) / *options_.scan_s);
+}
+
+bool ScanReader::next(Scan& scan) {
+  if (number_ == size_) return false;
+  if (options_.radar.sigma)
+    scan = simulated(first_time_ + static_cast<double>(number_) * *options_.scan_s);
+  else
+    scan = std::move(scans_[number_]);
+  ++number_;
+  return true;
 }
 
 /// The next scan of a simulated radar: each target is where it was between its rows, and is detected with probability
 /// P_D; false detections are uniform in range, azimuth and elevation.
-bool ScanReader::simulated(Scan& scan) {
-  const double time = first_time_ + static_cast<double>(number_++) * *options_.scan_s;
-  if (!(time <= last_time_)) return false;
+Scan ScanReader::simulated(double time) {
+  Scan scan;
   const auto add = [&](Row row) {
     row.detection = with_sensor_noise(filter_, "", row.detection, axes_);
     row.detection.tag = scan.size();
@@ -163,7 +157,7 @@ bool ScanReader::simulated(Scan& scan) {
     add({.detection = AnyDetection::polar(time, std::span(z).first(size), unknown, options_.radar.place())});
   }
   if (scan.empty()) add({.detection = AnyDetection::missed(time)});
-  return true;
+  return scan;
 }
 
 std::vector<std::string> ScanReader::notes() const {
@@ -171,12 +165,7 @@ std::vector<std::string> ScanReader::notes() const {
   for (const std::string& note : places_.notes()) notes.push_back(note);
   if (unplaced_ > 0)
     notes.push_back(fmt::format("Rows without a latitude and a longitude are not used: {}", unplaced_));
-  const std::string scans = options_.scan_s ? fmt::format("{} s, as --scan says", shortest(*options_.scan_s))
-                            : turn_ == 0.0
-                                ? "the rows of one time"
-                                : fmt::format("one turn of the radar, {:.3g} s on average, as the azimuths tell",
-                                              whole_turn * (time_ - first_time_) / angle_);
-  notes.push_back("A scan is " + scans);
+  notes.push_back("A scan is " + scan_is_);
   return notes;
 }
 

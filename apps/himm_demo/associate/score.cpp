@@ -32,31 +32,12 @@ std::pair<std::vector<std::size_t>, PointSet> present(const std::vector<Trajecto
 
 }  // namespace
 
-std::vector<Field> fields_of(const std::string& name, const std::function<Cell(Score::Figure)>& cell) {
-  const std::array<ResultColumn, Score::figures> columns = {
-      {{.key = "gospa_m", .header = "GOSPA", .unit = "m"},
-       {.key = "localisation_m", .header = "localisation", .group = "parts:"},
-       {.key = "missed_m", .header = "missed", .group = "parts:"},
-       {.key = "false_m", .header = "false", .group = "parts:"},
-       {.key = "switches", .header = "switches", .digits = 1},
-       {.key = "false_tracks", .header = "false tracks", .digits = 1},
-       {.key = "time_to_confirm_s", .header = "time to confirm", .unit = "s", .digits = 1},
-       {.key = "untracked", .header = "targets without a track", .digits = 1},
-       {.key = "targets", .header = "targets", .digits = 0}}};
-  std::vector<Field> fields = {{of_words("of", "tracks by"), name}};
-  for (std::size_t i = 0; i < columns.size(); ++i) {
-    Field& field = fields.emplace_back(Field{columns[i], cell(static_cast<Score::Figure>(i))});
-    field.column.interval = std::holds_alternative<Interval>(field.cell.value());
-  }
-  return fields;
-}
-
 std::optional<Known> between(const std::vector<Known>& path, double time) {
   const auto after = std::ranges::lower_bound(path, time, {}, &Known::time);
   if (after == path.end() || (after == path.begin() && after->time > time)) return std::nullopt;
   const Known& before = after == path.begin() ? *after : *std::prev(after);
-  const double length = after->time - before.time, share = length > 0.0 ? (time - before.time) / length : 1.0;
-  Known result{time, after->line, {}};
+  const double share = before.time < time ? (time - before.time) / (after->time - before.time) : 1.0;
+  Known result = *after;
   for (std::size_t i = 0; i < 3; ++i) result.at[i] = (1.0 - share) * before.at[i] + share * after->at[i];
   return result;
 }
@@ -77,23 +58,23 @@ void AssociateHistory::add(const MultiTargetTracker& tracker, const Scan& scan,
         position_of(scan[owner.tag].detection, axes_).value_or(Position{nan, nan, nan}));
   for (const TrackedTarget& track : tracks) {
     if (!track.confirmed) continue;
-    auto& [path, existence, first_time, detected] =
-        tracks_.try_emplace(track.number, Track{{times_.size(), {}}, {}, track.first_time, 0}).first->second;
+    auto& [path, existence] = tracks_.try_emplace(track.number, Track{{times_.size(), {}}, {}}).first->second;
     path.positions.resize(times_.size() - path.start);
     path.positions.emplace_back(track.point.mean.begin(), track.point.mean.begin() + axes_);
     existence.resize(path.positions.size() - 1, nan);
     existence.push_back(track.existence);
-    detected = track.detected;
   }
   times_.push_back(tracker.time());
 }
 
-Score AssociateHistory::score(std::optional<double> cutoff) const {
-  Score score;
+double AssociateHistory::usual_cutoff() const {
   std::vector<double> sigmas = sigmas_;
   const auto middle = sigmas.begin() + std::ssize(sigmas) / 2;
   std::ranges::nth_element(sigmas, middle);
-  score.cutoff = cutoff.value_or(sigmas.empty() ? 10.0 : 10.0 * *middle);
+  return sigmas.empty() ? 10.0 : 10.0 * *middle;
+}
+
+std::vector<Field> AssociateHistory::score(double cutoff) const {
   const auto tracks = each(tracks_, [](const auto& one) { return one.second.path; });
   const auto truth = each(targets_, [&](const auto& one) {
     Trajectory path;
@@ -104,15 +85,16 @@ Score AssociateHistory::score(std::optional<double> cutoff) const {
         path.positions.emplace_back(known->at.begin(), known->at.begin() + axes_);
     return path;
   });
+  Gospa sum;
   std::vector<double> confirmed(truth.size(), nan);  // when each target had its first track
   std::vector<int> balance(tracks.size());           // of each track the scans as a target's, less all others
   for (std::size_t k = 0; k < times_.size(); ++k) {
     const auto [targets, here] = present(truth, k);
     const auto [shown, found] = present(tracks, k);
-    const Gospa result = sigmax::gospa(here, found, {.cutoff = score.cutoff, .order = 2.0});
-    score[Score::localisation] += result.localisation;
-    score[Score::missed] += result.missed;
-    score[Score::false_targets] += result.false_targets;
+    const Gospa result = sigmax::gospa(here, found, {.cutoff = cutoff, .order = 2.0});
+    sum.localisation += result.localisation;
+    sum.missed += result.missed;
+    sum.false_targets += result.false_targets;
     for (const std::size_t track : shown) --balance[track];
     for (std::size_t i = 0; i < targets.size(); ++i) {
       if (!result.estimate_of[i]) continue;
@@ -120,47 +102,31 @@ Score AssociateHistory::score(std::optional<double> cutoff) const {
       if (double& first = confirmed[targets[i]]; std::isnan(first)) first = times_[k];
     }
   }
-  score[Score::gospa] = score[Score::localisation] + score[Score::missed] + score[Score::false_targets];
-  for (std::size_t i = Score::gospa; i <= Score::false_targets; ++i)
-    score.values[i] = std::sqrt(score.values[i] / static_cast<double>(std::max<std::size_t>(times_.size(), 1)));
-  score[Score::targets] = static_cast<double>(targets_.size());
-  for (auto time = confirmed.begin(); const auto& [label, path] : targets_) {
-    const double since = *time++ - path.front().time;
-    score[Score::untracked] += std::isnan(since) ? 1.0 : 0.0;
-    score[Score::time_to_confirm] += std::isnan(since) ? 0.0 : since;
-  }
-  score[Score::time_to_confirm] /= score[Score::targets] - score[Score::untracked];  // NaN without any
-  score[Score::false_tracks] = static_cast<double>(std::ranges::count_if(balance, [](int scans) { return scans < 0; }));
-  const TrajectoryGospaSettings settings{
-      .cutoff = score.cutoff, .switch_penalty = score.cutoff / 2.0, .max_states = 100};
-  score[Score::switches] = trajectory_gospa(truth, tracks, settings).switches;
-  return score;
-}
-
-std::size_t AssociateHistory::at_the_end() const {
-  return static_cast<std::size_t>(std::ranges::count_if(
-      tracks_, [&](const auto& one) { return one.second.path.start + one.second.existence.size() == times_.size(); }));
+  const auto rms = [&](double squares) {
+    return std::sqrt(squares / static_cast<double>(std::max<std::size_t>(times_.size(), 1)));
+  };
+  RunningMean delay;  // from a target's first detection on
+  for (auto time = confirmed.begin(); const auto& [label, path] : targets_)
+    if (const double since = *time++ - path.front().time; !std::isnan(since)) delay.add(since);
+  const TrajectoryGospaSettings settings{.cutoff = cutoff, .switch_penalty = cutoff / 2.0, .max_states = 100};
+  return {{{.key = "gospa_m", .header = "GOSPA", .unit = "m"}, rms(sum.localisation + sum.missed + sum.false_targets)},
+          {{.key = "localisation_m", .header = "localisation", .group = "parts:"}, rms(sum.localisation)},
+          {{.key = "missed_m", .header = "missed", .group = "parts:"}, rms(sum.missed)},
+          {{.key = "false_m", .header = "false", .group = "parts:"}, rms(sum.false_targets)},
+          {{.key = "switches", .header = "switches", .digits = 1}, trajectory_gospa(truth, tracks, settings).switches},
+          {{.key = "false_tracks", .header = "false tracks", .digits = 1},  // no target's in most of their scans
+           static_cast<double>(std::ranges::count_if(balance, [](int scans) { return scans < 0; }))},
+          {{.key = "time_to_confirm_s", .header = "time to confirm", .unit = "s", .digits = 1},
+           delay.count() > 0 ? delay.mean() : nan},
+          {{.key = "untracked", .header = "targets without a track", .digits = 1},
+           static_cast<double>(targets_.size() - delay.count())},
+          {{.key = "targets", .header = "targets", .digits = 0}, static_cast<double>(targets_.size())}};
 }
 
 std::size_t AssociateHistory::detections(bool explained) const {
   std::size_t count = 0;
   for (const auto& [number, own] : detections_) count += !explained || tracks_.contains(number) ? own.size() : 0;
   return count;
-}
-
-ResultTable AssociateHistory::tracks() const {
-  ResultTable table;
-  for (const auto& [number, track] : tracks_) {
-    const std::size_t end = track.path.start + track.existence.size();
-    const auto absent = std::ranges::count_if(track.existence, [](double one) { return std::isnan(one); });
-    table.row_of({{of_words("track", "track"), std::to_string(number)},
-                  {{.key = "first_time_s", .header = "from", .unit = "s", .digits = 1}, track.first_time},
-                  {{.key = "last_time_s", .header = "to", .unit = "s", .digits = 1}, times_[end - 1]},
-                  {{.key = "scans", .header = "scans"}, std::ssize(track.existence) - absent},
-                  {{.key = "detected", .header = "detected in"}, track.detected},
-                  {{.key = "at_the_end", .header = "at the end"}, end == times_.size() ? "yes" : "no"}});
-  }
-  return table;
 }
 
 void AssociateHistory::add_to(Report& page, bool geodetic) const {
@@ -207,7 +173,7 @@ void AssociateHistory::add_to(Report& page, bool geodetic) const {
     longest.resize(most_curves);
   }
   for (const auto* one : longest) {
-    const auto& [path, own, first_time, detected] = one->second;
+    const auto& [path, own] = one->second;
     existence.curves.push_back({.name = fmt::format("track {}", one->first)});
     for (std::size_t k = 0; k < times_.size(); k += every)
       existence.curves.back().values.push_back(k - path.start < own.size() ? own[k - path.start] : nan);

@@ -8,16 +8,8 @@ namespace {
 
 constexpr int plane_axes = 2;
 
-/// The place of the situation among all.
-std::size_t place_of(const AssociateOptions& options) {
-  return static_cast<std::size_t>(std::ranges::find(situations, options.situation, &NamedSituation::name) -
-                                  situations.begin());
-}
-
-std::vector<Scan> drawn(const AssociateOptions& options, std::uint64_t seed) {
-  return simulate(static_cast<Situation>(place_of(options)), seed,
-                  {options.rules.detection_probability, options.clutter, options.radars})
-      .scans;
+const Situation& situation_of(const AssociateOptions& options) {
+  return *std::ranges::find(situations, options.situation, &Situation::name);
 }
 
 /// Writes a situation as a recording, and prints the command that reads it.
@@ -34,7 +26,7 @@ void write_situation(const AssociateOptions& options) {
   keys.insert(keys.end(), {"label", "true_x_m", "true_y_m"});
   RowFile file(files, name, keys);
   std::size_t detections = 0;
-  const auto scans = drawn(options, options.seed);
+  const auto scans = simulate(options, options.seed).scans;
   for (const Scan& scan : scans)
     for (const Row& row : scan) {
       const AnyDetection& seen = row.detection;
@@ -49,7 +41,7 @@ void write_situation(const AssociateOptions& options) {
       file.write(cells);
       if (row.measured()) ++detections;
     }
-  const auto& [_, greatest_speed, sets] = situations[place_of(options)];
+  const auto& [_, greatest_speed, sets] = situation_of(options);
   std::string command = fmt::format("himm_demo associate {} --labels label", in_shell(options.output.out + "/" + name));
   if (greatest_speed) command += fmt::format(" --greatest-speed {}", *greatest_speed);
   for (const std::string& set : sets) command += " --set " + set;
@@ -63,14 +55,15 @@ void write_situation(const AssociateOptions& options) {
 }
 
 /// A figure of the runs, ± 95 %: the root mean square of GOSPA and its parts, the mean of others.
-Cell averaged(std::vector<double> values, Score::Figure figure) {
-  const bool is_root = figure <= Score::false_targets;
+Field averaged(ResultColumn column, std::vector<double> values) {
+  const bool is_root = column.key.ends_with("_m");
   std::erase_if(values, [](double value) { return std::isnan(value); });
-  if (values.empty()) return {};
-  if (figure == Score::targets) return values.front();
+  if (values.empty()) return {column, {}};
+  if (column.key == "targets") return {column, values.front()};
   for (double& value : values) value *= is_root ? value : 1.0;
   const Statistic mean = Statistic::mean(values, std::vector<double>(values.size(), 1.0));
-  return (is_root ? sqrt(mean) : mean).interval();
+  column.interval = true;
+  return {column, (is_root ? sqrt(mean) : mean).interval()};
 }
 
 void evaluate(const AssociateOptions& options, const std::vector<FilterSettings>& filters) {
@@ -79,7 +72,7 @@ void evaluate(const AssociateOptions& options, const std::vector<FilterSettings>
     for (const FilterSettings& filter : filters) contestants.emplace_back(association, filter);
   refuse_to_overwrite(options.output, {options.filters.config}, {"associations.csv"});
   const auto work = [&](std::size_t run) {
-    const auto scans = drawn(options, options.seed + run);
+    const auto scans = simulate(options, options.seed + run).scans;
     Study::Row row;
     for (const auto& contestant : contestants) {
       const FilterSettings& filter = contestant.second;
@@ -90,8 +83,8 @@ void evaluate(const AssociateOptions& options, const std::vector<FilterSettings>
             scan, [&](const Row& seen) { return with_sensor_noise(filter, seen.sensor, seen.detection, plane_axes); }));
         history.add(tracker, scan, tracker.tracks(tracker.time()));
       }
-      const Score score = history.score(options.cutoff);
-      row.insert(row.end(), score.values.begin(), score.values.end());
+      for (const Field& field : history.score(options.cutoff.value_or(history.usual_cutoff())))
+        row.push_back(std::get<double>(field.cell.value()));
     }
     return row;
   };
@@ -102,12 +95,14 @@ void evaluate(const AssociateOptions& options, const std::vector<FilterSettings>
   ResultFiles files(options.output);
   Result result(options.output);
   ResultTable table;
-  for (std::size_t i = 0; i < contestants.size(); ++i)
-    table.row_of(fields_of(fmt::format("{} {}", contestants[i].first.name, contestants[i].second.name),
-                           [&](Score::Figure figure) {
-                             const auto place = i * Score::figures + figure;
-                             return averaged(each(rows, [&](const auto& row) { return row[place]; }), figure);
-                           }));
+  for (std::size_t place = 0; const auto& [association, filter] : contestants) {
+    std::vector<Field> fields = {{of_words("of", "tracks by"), fmt::format("{} {}", association.name, filter.name)}};
+    for (const Field& field : AssociateHistory(plane_axes).score(1.0)) {
+      fields.push_back(averaged(field.column, each(rows, [=](const Study::Row& row) { return row[place]; })));
+      ++place;
+    }
+    table.row_of(fields);
+  }
   result.facts("situation", options.situation, "runs", runs, "seed", options.seed, "settings_toml", as_toml(filters));
   result.say("Situation {}: {} runs, seed {}; RMS GOSPA (p = 2) and means, ± 95 %", options.situation, runs,
              options.seed);
@@ -125,7 +120,7 @@ void simulate_situation(AssociateOptions options) {
   FilterDefaults defaults = associate_defaults();
   // The targets of `meeting` have one motion, so that the kind of the mode does not matter.
   if (options.situation != "meeting") defaults.names = {"imm", "himm"};
-  const auto& [_, greatest_speed, sets] = situations[place_of(options)];
+  const auto& [_, greatest_speed, sets] = situation_of(options);
   options.filters.sets.insert(options.filters.sets.begin(), sets.begin(), sets.end());
   if (options.rules.greatest_speed == MultiTargetRules().greatest_speed && greatest_speed)
     options.rules.greatest_speed = *greatest_speed;

@@ -12,11 +12,13 @@ struct PlannedTurn {
   double rate;     ///< in rad/s, counter-clockwise
 };
 
-/// A target that exists from scan `birth` until before scan `end`.
+/// A target whose state is known at one scan, and drawn before and after. It exists from scan `birth` until before
+/// scan `end`.
 struct PlannedTarget {
-  int birth, end, known;  ///< its state is known at one scan, and drawn before and after
+  int known;
   Plane position, velocity;
   std::vector<PlannedTurn> turns{};  ///< after that scan
+  int birth = 0, end = 60;
 };
 
 struct ScenePlan {
@@ -26,50 +28,37 @@ struct ScenePlan {
   std::vector<PlannedTarget> targets{};
 };
 
-ScenePlan plan_of(Situation situation, RandomStream& random) {
-  ScenePlan plan;
+ScenePlan plan_of(const std::string& situation, RandomStream& random) {
   const auto normal = [&](double sigma) {
     const double x = random.normal(), y = random.normal();
     return sigma * Plane{x, y};
   };
-  switch (situation) {
-    case Situation::crossing:
-      for (const double angle : {-15.0 * degree, 15.0 * degree})
-        plan.targets.push_back({0, 60, 30, {10e3, 10e3}, std::polar(150.0, angle)});
-      break;
-    case Situation::parallel:  // each target turns by 12° when they are near, and by as much away from the other later
-      plan.q = 0.002;
-      for (const double rate : {-3.0 * degree, 3.0 * degree})
-        plan.targets.push_back({0,
-                                60,
-                                0,
-                                {2000.0, rate < 0.0 ? 9014.0 : 10986.0},
-                                std::polar(150.0, -4.0 * rate),
-                                {{14, 16, rate}, {46, 48, rate}}});
-      break;
-    case Situation::splitting:
-      plan.targets = {{0, 60, 20, {7000.0, 10e3}, 150.0},
-                      {20, 60, 20, {7000.0, 10e3}, 150.0, {{20, 25, 3.0 * degree}}}};
-      break;
-    case Situation::manoeuvring:
-      plan.targets = {{0, 60, 0, {3000.0, 8000.0}, 150.0, {{25, 32, 6.0 * degree}}},
-                      {0, 60, 0, {3000.0, 12e3}, 150.0, {{25, 32, -6.0 * degree}}},
-                      {0, 60, 0, {17e3, 10e3}, -150.0, {{15, 22, 6.0 * degree}, {35, 42, -6.0 * degree}}}};
-      break;
-    case Situation::dense:
-      plan = {.side = 8000.0, .false_detections = 60.0};
-      for (int i = 0; i < 12; ++i) {
-        const Plane velocity = std::polar(50.0, 2.0 * std::numbers::pi * random.uniform()) + normal(10.0);
-        plan.targets.push_back({i, 60 - i / 2, 30, Plane{4000.0, 4000.0} + normal(1000.0), velocity});
-      }
-      break;
-    case Situation::meeting:
-      plan = {.scans = 81, .step = 1.0, .side = 300.0, .sigma = 1.0, .q = 0.01};
-      for (const int end : {40, 81, 81, 81}) {
-        const Plane position = Plane{150.0, 150.0} + normal(std::sqrt(0.1));
-        plan.targets.push_back({0, end, 40, position, normal(std::sqrt(0.1))});
-      }
-      break;
+  constexpr double slow = 3.0 * degree, fast = 6.0 * degree;
+  if (situation == "crossing")
+    return {.targets = {{30, {10e3, 10e3}, std::polar(150.0, -15.0 * degree)},
+                        {30, {10e3, 10e3}, std::polar(150.0, 15.0 * degree)}}};
+  if (situation == "parallel")  // each turns by 12° when they are near, and by as much away from the other later
+    return {.q = 0.002,
+            .targets = {{0, {2000.0, 9014.0}, std::polar(150.0, 4.0 * slow), {{14, 16, -slow}, {46, 48, -slow}}},
+                        {0, {2000.0, 10986.0}, std::polar(150.0, -4.0 * slow), {{14, 16, slow}, {46, 48, slow}}}}};
+  if (situation == "splitting")
+    return {.targets = {{20, {7000.0, 10e3}, 150.0}, {20, {7000.0, 10e3}, 150.0, {{20, 25, slow}}, 20}}};
+  if (situation == "manoeuvring")
+    return {.targets = {{0, {3000.0, 8000.0}, 150.0, {{25, 32, fast}}},
+                        {0, {3000.0, 12e3}, 150.0, {{25, 32, -fast}}},
+                        {0, {17e3, 10e3}, -150.0, {{15, 22, fast}, {35, 42, -fast}}}}};
+  if (situation == "dense") {
+    ScenePlan plan{.side = 8000.0, .false_detections = 60.0};
+    for (int i = 0; i < 12; ++i) {
+      const Plane velocity = std::polar(50.0, 2.0 * std::numbers::pi * random.uniform()) + normal(10.0);
+      plan.targets.push_back({30, Plane{4000.0, 4000.0} + normal(1000.0), velocity, {}, i, 60 - i / 2});
+    }
+    return plan;
+  }
+  ScenePlan plan{.scans = 81, .step = 1.0, .side = 300.0, .sigma = 1.0, .q = 0.01};
+  for (const int end : {40, 81, 81, 81}) {
+    const Plane position = Plane{150.0, 150.0} + normal(std::sqrt(0.1));
+    plan.targets.push_back({40, position, normal(std::sqrt(0.1)), {}, 0, end});
   }
   return plan;
 }
@@ -118,16 +107,11 @@ AnyDetection seen(double time, Plane position, const ScenePlan& plan, int radar,
 
 }  // namespace
 
-Scene simulate(Situation situation, std::uint64_t seed, const Visibility& visibility) {
-  const auto [probability, false_detections, radars] = visibility;
+Scene simulate(const AssociateOptions& options, std::uint64_t seed) {
+  const int radars = options.radars;
   RandomStream truth{seed, 0}, random{seed, 1};
-  const ScenePlan plan = plan_of(situation, truth);
-  Scene scene{false_detections.value_or(plan.false_detections)};
-  if (!(probability >= 0.0 && probability <= 1.0 && scene.false_detections >= 0.0 && scene.false_detections <= 500.0) ||
-      radars < 0 || radars > 4)
-    throw std::invalid_argument(
-        fmt::format("found P_D {}, {} false detections a scan and {} radars; expected 0 to 1, 0 to 500 and 0 to 4",
-                    probability, scene.false_detections, radars));
+  const ScenePlan plan = plan_of(options.situation, truth);
+  Scene scene;
   for (const PlannedTarget& target : plan.targets) scene.truth.push_back(path_of(target, plan, truth));
 
   for (int k = 0; k < plan.scans; ++k) {
@@ -143,10 +127,11 @@ Scene simulate(Situation situation, std::uint64_t seed, const Visibility& visibi
       Row row{.track = std::to_string(i + 1), .sensor = sensor, .detection = AnyDetection::missed(time)};
       row.truth = Position{x, y, 0.0};
       const double chance = random.uniform(), along = random.normal(), across = random.normal();
-      if (chance < probability) row.detection = seen(time, {x, y}, plan, radar, {along, across});
-      (chance < probability ? rows : missed).push_back(row);
+      const bool detected = chance < options.rules.detection_probability;
+      if (detected) row.detection = seen(time, {x, y}, plan, radar, {along, across});
+      (detected ? rows : missed).push_back(row);
     }
-    for (std::size_t n = random.count(scene.false_detections); n > 0; --n) {
+    for (std::size_t n = random.count(options.clutter.value_or(plan.false_detections)); n > 0; --n) {
       const double x = plan.side * random.uniform(), y = plan.side * random.uniform();
       rows.push_back({.sensor = sensor, .detection = seen(time, {x, y}, plan, radar, {})});
     }

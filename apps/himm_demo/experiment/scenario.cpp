@@ -1,13 +1,8 @@
-#include "himm_demo/experiment/scenario.hpp"
-
-#include <cassert>
-
-#include "records/recording.hpp"
+#include "himm_demo/experiment/tally.hpp"
 
 namespace sigmax::apps {
 
 Scenario scenario(int number, Preset preset) {
-  assert(number == 1 || number == 2);
   const bool released = preset == Preset::released;
   Scenario result;
   result.velocity = Vector<3>(-100.0, -100.0, 0.0);
@@ -28,7 +23,6 @@ Scenario scenario(int number, Preset preset) {
 }
 
 Group group(int number, int scenario_number) {
-  assert(number >= 1 && number <= 4);
   const double scale = scenario_number == 1 ? 1.0 : 9.0;
   const Polar accurate{scenario_number == 1 ? 10.0 : 100.0, degrees(0.1 * scale), degrees(0.1 * scale)};
   const auto times = [&](double factor) {

@@ -1,9 +1,6 @@
 // How detections come to a filter: with the noise that it assumes, and from where their sensors stand.
 
-#include <sigmax/estimation/radar.hpp>
-
 #include "himm_demo/filters/settings.hpp"
-#include "shell/text.hpp"
 
 namespace sigmax::apps {
 namespace {

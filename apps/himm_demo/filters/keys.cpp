@@ -2,8 +2,6 @@
 
 #include <sstream>
 
-#include "shell/text.hpp"
-
 namespace sigmax::apps {
 namespace {
 
@@ -150,21 +148,16 @@ FilterKey per_model(MotionParameter parameter) {
 /// The names of all motions.
 std::string motion_names() { return list_of(known_motions(), &KnownMotion::name); }
 
-/// The models themselves; each new one is as that of its name, or else as the first of those that were there.
+/// The models themselves.
 FilterKey models() {
   return {"models",
           {text_of("models").meaning, motion_names()},
           [](const Settings& settings, FilterSettings& filter) {
-            const auto names = each(filter.motions, &MotionChoice::name);
-            const std::vector<MotionChoice> before = std::exchange(filter.motions, {});
-            for (const auto& name : settings.get("models", names)) {
+            const auto names = settings.get("models", each(filter.motions, &MotionChoice::name));
+            for (const auto& name : names)
               if (!known_motion(name)) throw settings.error("models", "names out of " + motion_names());
-              const auto same = std::ranges::find(before, name, &MotionChoice::name);
-              filter.motions.push_back(same == before.end() ? before.front() : *same);
-              filter.motions.back().name = name;
-            }
-            if (filter.motions.empty()) throw settings.error("models", "at least one of " + motion_names());
-            filter.models = names_of(filter.motions);
+            if (names.empty()) throw settings.error("models", "at least one of " + motion_names());
+            replace_models(filter, names);
           },
           [](const FilterSettings& filter) {
             return fmt::format("[{}]", list_of(filter.motions, [](const MotionChoice& motion) {
@@ -177,16 +170,7 @@ FilterKey models() {
 FilterKey transition(const std::string& name, bool fuzzy) {
   return {name, text_of(name),
           [=](const Settings& settings, FilterSettings& filter) {
-            const std::size_t modes = filter.models.size();
-            const double others = static_cast<double>(std::max<std::size_t>(modes, 2) - 1);
-            std::vector<std::vector<double>> rows(modes, std::vector<double>(modes));
-            for (std::size_t i = 0; i < modes; ++i) {
-              double leaves = fuzzy ? filter.leaving_possibility : filter.leaving_probability;
-              if (filter.motions[i].manoeuvres()) leaves = filter.leaving_a_manoeuvre.value_or(leaves);
-              std::ranges::fill(rows[i], fuzzy ? leaves : leaves / others);
-              rows[i][i] = fuzzy || modes == 1 ? 1.0 : 1.0 - leaves;
-            }
-            rows = settings.get(name, rows);
+            const auto rows = settings.get(name, default_transition(filter, fuzzy));
             if (filter.fuzzy == fuzzy) filter.transition = rows;
           },
           [](const FilterSettings& filter) { return fmt::format("[{}]", list_of(filter.transition, toml_list)); },

@@ -1,7 +1,5 @@
 #include "himm_demo/filters/settings.hpp"
 
-#include "shell/text.hpp"
-
 namespace sigmax::apps {
 namespace {
 
@@ -245,6 +243,32 @@ std::vector<std::string> names_of(const std::vector<MotionChoice>& motions) {
     names.push_back(before == 0 ? motion->name : fmt::format("{}_{}", motion->name, before + 1));
   }
   return names;
+}
+
+void replace_models(FilterSettings& filter, const std::vector<std::string>& motions) {
+  std::vector<MotionChoice> left = filter.motions;
+  const MotionChoice first = left.front();
+  filter.motions.clear();
+  for (const std::string& name : motions) {
+    const auto same = std::ranges::find(left, name, &MotionChoice::name);
+    filter.motions.push_back(same == left.end() ? first : *same);
+    filter.motions.back().name = name;
+    if (same != left.end()) left.erase(same);
+  }
+  filter.models = names_of(filter.motions);
+}
+
+std::vector<std::vector<double>> default_transition(const FilterSettings& filter, bool fuzzy) {
+  const std::size_t modes = filter.models.size();
+  const double others = static_cast<double>(std::max<std::size_t>(modes, 2) - 1);
+  std::vector<std::vector<double>> rows(modes, std::vector<double>(modes));
+  for (std::size_t i = 0; i < modes; ++i) {
+    double leaves = fuzzy ? filter.leaving_possibility : filter.leaving_probability;
+    if (filter.motions[i].manoeuvres()) leaves = filter.leaving_a_manoeuvre.value_or(leaves);
+    std::ranges::fill(rows[i], fuzzy ? leaves : leaves / others);
+    rows[i][i] = fuzzy || modes == 1 ? 1.0 : 1.0 - leaves;
+  }
+  return rows;
 }
 
 std::vector<std::string> model_names(const std::vector<FilterSettings>& filters) {

@@ -125,6 +125,12 @@ std::vector<FilterSettings> read_filters(const Settings& settings, const FilterD
 /// Distinct names of models: a second dwna is dwna_2.
 std::vector<std::string> names_of(const std::vector<MotionChoice>& motions);
 
+/// Other motions in place of the filter's: models that it had keep their parameters, a new one is as the first.
+void replace_models(FilterSettings& filter, const std::vector<std::string>& motions);
+
+/// The matrix by which the mode of a kind moves on unless it is given.
+std::vector<std::vector<double>> default_transition(const FilterSettings& filter, bool fuzzy);
+
 /// The models of all filters, each once, in order.
 std::vector<std::string> model_names(const std::vector<FilterSettings>& filters);
 

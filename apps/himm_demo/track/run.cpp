@@ -1,4 +1,3 @@
-#include <sigmax/earth/earth_target.hpp>
 
 #include "himm_demo/track/page.hpp"
 #include "himm_demo/track/track.hpp"

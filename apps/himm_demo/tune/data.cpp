@@ -1,6 +1,5 @@
 #include "himm_demo/tune/tune.hpp"
 
-#include <sigmax/estimation/dense.hpp>
 #include <sigmax/hybrid/fit_target.hpp>
 
 #include "checks/checks.hpp"
@@ -22,7 +21,7 @@ void refuse_other_kind(const TuneOptions& options, const TuneData& data, const R
     throw InputError({.where = file,
                       .what = fmt::format("it has {} axes, {} has {}", recording.axes(), options.files[0], data.axes),
                       .remedy = "tune recordings of one, two and three axes apart"});
-  if (options.objective != Objective::prequential && !options.radar.sigma && !recording.has_truth())
+  if (options.truth && !options.radar.sigma && !recording.has_truth())
     throw InputError(
         "{}:1: --truth, but there is no column true_x_m; leave out --truth, name the columns with --columns, or take "
         "the recording as the truth with --radar",
@@ -151,21 +150,11 @@ void summarize(TuneData& data, const Columns& columns) {
   }
 }
 
-/// Of the true position, by the estimate's leading components; an axis that there is not counts for nothing.
-double truth_loss(const TargetPoint& now, const Position& truth, int axes, Objective objective) {
-  std::array<double, 3> error{};
-  std::array<double, 9> covariance = {1, 0, 0, 0, 1, 0, 0, 0, 1}, root{};
-  for (std::size_t i = 0; i < static_cast<std::size_t>(axes); ++i) {
-    error[i] = now.mean[i] - truth[i];
-    for (std::size_t k = 0; k <= i; ++k) covariance[i + 3 * k] = now.covariance[i + k * now.mean.size()];
-  }
-  const auto squared = [&] { return error[0] * error[0] + error[1] * error[1] + error[2] * error[2]; };
-  if (objective == Objective::rmse) return squared();
-  if (!detail::cholesky_factor(covariance.data(), 3, root.data()))
-    throw std::domain_error("the covariance of an estimate is not positive definite");
-  detail::lower_solve(root.data(), 3, error.data());
-  const double log_root = std::log(root[0]) + std::log(root[4]) + std::log(root[8]);
-  return 0.5 * squared() + log_root + 0.5 * axes * std::log(2.0 * std::numbers::pi);
+/// How far an estimate is from the truth, in m².
+double squared_error(const TargetPoint& now, const Position& truth, int axes) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(axes); ++i) sum += std::pow(now.mean[i] - truth[i], 2);
+  return sum;
 }
 
 }  // namespace
@@ -209,7 +198,7 @@ RowFolds TuneData::folds(std::size_t count) const {
   return folds_of(each(tracks, [](const TuneTrack& track) { return track.rows.size(); }), count);
 }
 
-RowLosses losses(const TuneData& data, const FilterSettings& settings, Objective objective, const Look& look,
+RowLosses losses(const TuneData& data, const FilterSettings& settings, bool by_truth, const Look& look,
                  std::size_t withhold) {
   TargetChoice choice = choice_of(settings, data.axes);
   if (data.crosses) choice.rules.waiting = bearings_of_a_start;
@@ -228,25 +217,23 @@ RowLosses losses(const TuneData& data, const FilterSettings& settings, Objective
     const auto visit = [&](const TargetPoint& now) {
       if (now.is_start && !std::exchange(started, true)) return;
       const Row& row = rows[now.tag];
-      if (objective != Objective::prequential && row.truth)
-        lost[now.tag] = truth_loss(now, *row.truth, data.axes, objective);
+      if (by_truth && row.truth) lost[now.tag] = squared_error(now, *row.truth, data.axes);
       if (look && !now.is_start) look(t, now);
     };
     const auto scores = log_scores(choice, detections, visit, [&](const AnyDetection& detection) {
       return starts_anywhere || axes_seen(rows[detection.tag].detection, data.axes) == data.axes;
     });
-    result.push_back(objective == Objective::prequential ? data.robust(t, scores) : std::move(lost));
+    result.push_back(!by_truth ? data.robust(t, scores) : std::move(lost));
   }
   return result;
 }
 
-double objective_of(const TuneData& data, const RowLosses& losses, Objective objective, const RowCounts& counts) {
-  if (objective == Objective::prequential) return data.robust.objective(losses, counts, data.most_strays);
-  const double mean = mean_loss(losses, counts);
-  return objective == Objective::rmse ? 0.5 * std::log(mean) : mean;
+double objective_of(const TuneData& data, const RowLosses& losses, bool by_truth, const RowCounts& counts) {
+  if (!by_truth) return data.robust.objective(losses, counts, data.most_strays);
+  return 0.5 * std::log(mean_loss(losses, counts));
 }
 
-Diagnosis diagnose(const TuneData& data, const FilterSettings& settings, Objective objective) {
+Diagnosis diagnose(const TuneData& data, const FilterSettings& settings, bool by_truth) {
   Diagnosis diagnosis;
   std::map<std::string, InnovationTally, std::less<>> sensors;
   for (const auto& model : settings.models) diagnosis.modes.push_back({model});
@@ -256,13 +243,11 @@ Diagnosis diagnose(const TuneData& data, const FilterSettings& settings, Objecti
   const auto look = [&](std::size_t t, const TargetPoint& now) {
     if (t != track) last.clear();
     track = t;
-    const Row& row = data.row({t, now.tag});
+    const Row& row = data.tracks[t].rows[now.tag];
     if (row.truth) {
-      for (std::size_t axis = 0; axis < static_cast<std::size_t>(data.axes); ++axis)
-        squares += std::pow(now.mean[axis] - (*row.truth)[axis], 2);
+      squares += squared_error(now, *row.truth, data.axes);
       ++judged;
     }
-    if (!now.nis && now.log_score) diagnosis.set_aside.push_back({t, now.tag});
     if (!now.nis) return;
     sensors[row.sensor].add(now.normalized_innovation, last[row.sensor]);
     diagnosis.modes[now.most_likely_mode].innovations.add(now.normalized_innovation);
@@ -272,7 +257,7 @@ Diagnosis diagnose(const TuneData& data, const FilterSettings& settings, Objecti
   };
   RowLosses lost;
   try {
-    lost = losses(data, settings, objective, look);
+    lost = losses(data, settings, by_truth, look);
   } catch (const std::exception& error) {
     const TuneTrack& its = data.tracks[track];
     throw InputError("{}:{}: filter '{}' on the track that begins here: {}; begin with settings that track takes",

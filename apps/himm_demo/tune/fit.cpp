@@ -91,7 +91,7 @@ std::vector<Number> free_numbers(const FilterSettings& settings, const TuneData&
   std::vector<Number> numbers;
   if (options.fits("models"))
     for (auto& number : motion_numbers(settings, data.scale)) numbers.push_back({{number.parameter, number.set}});
-  if (options.fits("sensors") && options.objective != Objective::rmse)
+  if (options.fits("sensors") && !options.truth)
     for (const auto& [name, sensor] : data.sensors) add_sensor(settings, name, data, numbers);
   if (options.fits("transition") && settings.scheme != Scheme::independent)
     for (auto& number : transition_numbers(settings, data.scale)) numbers.push_back({{number.parameter, number.set}});
@@ -107,31 +107,19 @@ FilterSettings with(FilterSettings settings, const std::vector<Number>& numbers,
 /// Other motions in place of the filter's: models that it had keep their parameters.
 FilterSettings with_models(const FilterSettings& settings, const std::string& joined) {
   FilterSettings result = settings;
-  result.motions.clear();
   const auto known = each(known_motions(), &KnownMotion::name);
-  std::vector<MotionChoice> left = settings.motions;
   std::vector<std::string> names;
   boost::split(names, joined, [](char letter) { return letter == '+'; });
-  for (const std::string& name : names) {
+  for (const std::string& name : names)
     if (!known_motion(name))
       throw UsageError({.what = "--models",
                         .found = in_quotes(name),
                         .expected = fmt::format("one of {}, joined by + as dwna+dwpa", fmt::join(known, ", ")),
                         .remedy = nearest_word(name, known)});
-    const auto same = std::ranges::find(left, name, &MotionChoice::name);
-    result.motions.push_back(same == left.end() ? settings.motions.front() : *same);
-    result.motions.back().name = name;
-    if (same != left.end()) left.erase(same);
-  }
-  result.models = names_of(result.motions);
+  replace_models(result, names);
   const std::size_t modes = result.models.size();
   if (modes == settings.models.size()) return result;
-  const double leaving = settings.fuzzy
-                             ? settings.leaving_possibility
-                             : settings.leaving_probability / std::max(1.0, static_cast<double>(modes) - 1.0);
-  result.transition.assign(modes, std::vector<double>(modes, leaving));
-  for (std::size_t i = 0; i < modes; ++i)
-    result.transition[i][i] = settings.fuzzy || modes == 1 ? 1.0 : 1.0 - leaving * static_cast<double>(modes - 1);
+  result.transition = default_transition(result, result.fuzzy);
   if (!result.sojourn_s.empty()) result.sojourn_s.assign(modes > 1 ? modes : 0, result.sojourn_s.front());
   return result;
 }
@@ -139,9 +127,9 @@ FilterSettings with_models(const FilterSettings& settings, const std::string& jo
 /// What a radar measured is predicted in its own space whatever the settings: the covariance of a conversion depends on
 /// what was measured, and so is not that of a density. A target at the radar itself, seen in directions without error,
 /// would explain everything.
-RowLosses judged(const TuneData& data, FilterSettings settings, Objective objective) {
-  if (objective == Objective::prequential) settings.radar_measurement = RadarForm::polar;
-  return losses(data, settings, objective);
+RowLosses judged(const TuneData& data, FilterSettings settings, bool by_truth) {
+  if (!by_truth) settings.radar_measurement = RadarForm::polar;
+  return losses(data, settings, by_truth);
 }
 
 /// How far half of the rows that are withheld, each fourth, are from where the filter expects them, by fold.
@@ -153,7 +141,7 @@ std::vector<Withheld> withheld(const TuneData& data, const FilterSettings& setti
   std::vector<std::vector<double>> off(count);
   for (std::size_t first = all_rows ? 0 : 3; first < 4; ++first) {
     const auto look = [&](std::size_t t, const TargetPoint& now) {
-      const AnyDetection& detection = data.row({t, now.tag}).detection;
+      const AnyDetection& detection = data.tracks[t].rows[now.tag].detection;
       const bool whole = now.tag % 4 == first && axes_seen(detection, data.axes) == data.axes;
       const auto seen = whole ? position_of(detection, data.axes) : std::nullopt;
       double squares = 0.0;
@@ -161,7 +149,7 @@ std::vector<Withheld> withheld(const TuneData& data, const FilterSettings& setti
         squares += std::pow((*seen)[i] - now.mean[i], 2);
       if (seen) off[folds[t][now.tag]].push_back(std::sqrt(squares));
     };
-    losses(data, settings, Objective::prequential, look, first);
+    losses(data, settings, false, look, first);
   }
   std::vector<Withheld> all;
   for (auto& own : off) all.push_back({own.empty() ? 0.0 : median(own), static_cast<double>(own.size())});
@@ -183,8 +171,8 @@ double farther(const std::vector<Withheld>& now, const std::vector<Withheld>& be
 RowLosses searched(const TuneData& data, const FilterSettings& settings, const TuneOptions& options,
                    const RowFolds& folds, const std::vector<Withheld>& before) {
   constexpr double nats = 10.0;
-  RowLosses all = judged(data, settings, options.objective);
-  if (options.objective != Objective::prequential) return all;
+  RowLosses all = judged(data, settings, options.truth);
+  if (options.truth) return all;
   const double more = nats * farther(withheld(data, settings, folds, options.folds, false), before);
   for (auto& rows : all)
     for (double& loss : rows) loss += more;
@@ -195,7 +183,7 @@ RowLosses searched(const TuneData& data, const FilterSettings& settings, const T
 Candidate fitted(const std::string& name, FilterSettings base, const TuneData& data, const TuneOptions& options,
                  const std::vector<Withheld>* before, Progress& progress) {
   Candidate best;
-  const bool prequential = options.objective == Objective::prequential;
+  const bool prequential = !options.truth;
   const RowFolds folds = data.folds(options.folds);
   std::vector<StateAugmentation> rules = {base.augmentation};
   for (const auto rule : {StateAugmentation::zero, StateAugmentation::borrowed_variance, StateAugmentation::unbiased})
@@ -205,18 +193,18 @@ Candidate fitted(const std::string& name, FilterSettings base, const TuneData& d
     const auto numbers = free_numbers(base, data, options);
     base.augmentation = rule;
     const auto objective = [&](const RowLosses& all, const RowCounts& counts) {
-      return objective_of(data, all, options.objective, counts);
+      return objective_of(data, all, options.truth, counts);
     };
     const auto lost = [&](const std::vector<double>& values) {
       progress.advance();
       const FilterSettings tried = with(base, numbers, values);
-      return before ? searched(data, tried, options, folds, *before) : judged(data, tried, options.objective);
+      return before ? searched(data, tried, options, folds, *before) : judged(data, tried, options.truth);
     };
     const bool again = least < infinity;  // by another augmentation, from where the first one led
     if (again &&
         !(objective(lost(each(numbers, [](const Number& number) { return number.parameter.start; })), {}) < least))
       continue;
-    const TuneProblem problem{each(numbers, &Number::parameter), lost, objective, options.objective != Objective::rmse};
+    const TuneProblem problem{each(numbers, &Number::parameter), lost, objective, !options.truth};
     const SearchOptions how{.samples = again ? 0U : 40U,
                             .starts = again ? 1 : 2 * options.starts,
                             .local = 14,
@@ -237,7 +225,7 @@ Candidate fitted(const std::string& name, FilterSettings base, const TuneData& d
     base = best.settings;
   }
   best.settings = read_filters(Settings::parse(as_toml({best.settings})), {}).front();
-  best.losses = judged(data, best.settings, options.objective);
+  best.losses = judged(data, best.settings, options.truth);
   return best;
 }
 
@@ -275,7 +263,7 @@ TunedFilter tune(const FilterSettings& settings, TuneData& data, const TuneOptio
   const RowFolds folds = data.folds(options.folds);
   TunedFilter tuned{{{.name = "as before", .settings = settings}}};
   Candidate& before = tuned.candidates.front();
-  before.losses = before.held_out = judged(data, settings, options.objective);
+  before.losses = before.held_out = judged(data, settings, options.truth);
   data.most_strays = std::max(0.05, data.robust.strays(before.losses));
   const auto fourth_before = withheld(data, settings, folds, options.folds, false);
   const auto withheld_before = withheld(data, settings, folds, options.folds, true);
@@ -292,18 +280,17 @@ TunedFilter tune(const FilterSettings& settings, TuneData& data, const TuneOptio
       sets.size(), options.threads,
       [&](std::size_t c) {
         Candidate found = fitted(sets[c].first, sets[c].second, data, options, nullptr, progress);
-        if (options.objective == Objective::prequential && !is_as_near(found))
+        if (!options.truth && !is_as_near(found))
           found = fitted(sets[c].first, sets[c].second, data, options, &fourth_before, progress);
         return found;
       },
       [&](std::size_t, Candidate&& found) { tuned.candidates.push_back(std::move(found)); });
-  const auto loss = [&](const Candidate& of) { return objective_of(data, of.losses, options.objective); };
+  const auto loss = [&](const Candidate& of) { return objective_of(data, of.losses, options.truth); };
   std::vector<RowLosses> held_out = {tuned.before().held_out};
   for (std::size_t c = 1; c < tuned.candidates.size(); ++c) {
     Candidate& candidate = tuned.candidates[c];
     candidate.gain = mean_difference(tuned.before().held_out, candidate.held_out);
-    const bool better = loss(candidate) < loss(tuned.before()) &&
-                        (options.objective != Objective::prequential || is_as_near(candidate));
+    const bool better = loss(candidate) < loss(tuned.before()) && (options.truth || is_as_near(candidate));
     held_out.push_back(better ? candidate.held_out : held_out.front());  // of equals the first one is taken
   }
   tuned.selected = select_settings(held_out, each(tuned.candidates, &Candidate::fitted_numbers));

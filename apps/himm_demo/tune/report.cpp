@@ -11,12 +11,12 @@ struct Findings {
   const std::string& name() const { return tuned.before().settings.name; }
 };
 
-const char* unit_of(Objective objective) { return objective == Objective::rmse ? "RMSE, m" : "nats a row"; }
+const char* unit_of(bool by_truth) { return by_truth ? "RMSE, m" : "nats a row"; }
 
 /// The mean loss as people read it: nats a row, or the RMSE in m.
-double figure_of(const RowLosses& losses, Objective objective, const RowCounts& counts = {}) {
+double figure_of(const RowLosses& losses, bool by_truth, const RowCounts& counts = {}) {
   const double mean = mean_loss(losses, counts);
-  return objective == Objective::rmse ? std::sqrt(mean) : mean;
+  return by_truth ? std::sqrt(mean) : mean;
 }
 
 /// A number with four digits that count.
@@ -50,7 +50,7 @@ ResultTable innovations_table(const std::vector<Diagnosis::Part>& parts, bool mo
   return table;
 }
 
-ResultTable candidates_table(const TunedFilter& tuned, Objective objective) {
+ResultTable candidates_table(const TunedFilter& tuned, bool by_truth) {
   ResultTable table;
   for (std::size_t c = 0; c < tuned.candidates.size(); ++c) {
     const Candidate& candidate = tuned.candidates[c];
@@ -60,11 +60,11 @@ ResultTable candidates_table(const TunedFilter& tuned, Objective objective) {
     table.row_of({{of_words("models", "models"), candidate.name},
                   {{.key = "remark"}, remark},
                   {{.key = "numbers", .header = "fitted numbers"}, candidate.fitted_numbers},
-                  {{.key = "fitted", .header = fmt::format("fitted, {}", unit_of(objective))},
-                   four(figure_of(candidate.losses, objective))},
-                  {{.key = "held_out", .header = fmt::format("held out, {}", unit_of(objective))},
-                   four(figure_of(candidate.held_out, objective))},
-                  {{.key = "gain", .header = objective == Objective::rmse ? "gain, m²" : "gain held out"},
+                  {{.key = "fitted", .header = fmt::format("fitted, {}", unit_of(by_truth))},
+                   four(figure_of(candidate.losses, by_truth))},
+                  {{.key = "held_out", .header = fmt::format("held out, {}", unit_of(by_truth))},
+                   four(figure_of(candidate.held_out, by_truth))},
+                  {{.key = "gain", .header = by_truth ? "gain, m²" : "gain held out"},
                    c == 0 ? Cell() : Cell(gain, fmt::format("{:+.3g} ± {:.2g}", gain, error))},
                   {{.key = "gain_error"}, c == 0 ? Cell() : Cell(error)},
                   {of_words("", " "), remark}});
@@ -112,7 +112,7 @@ ResultTable folds_table(const TunedFilter& tuned, const TuneOptions& options, co
   ResultTable table;
   for (std::size_t fold = 0; fold <= options.folds; ++fold) {
     const auto figure = [&](const Candidate& of) {
-      return four(figure_of(of.held_out, options.objective, [&](std::size_t t, std::size_t k) {
+      return four(figure_of(of.held_out, options.truth, [&](std::size_t t, std::size_t k) {
         return fold == options.folds || folds[t][k] == fold;
       }));
     };
@@ -128,23 +128,21 @@ ResultTable folds_table(const TunedFilter& tuned, const TuneOptions& options, co
 View view_of(const Findings& findings) {
   IntervalChart chart{.title = "NIS a measured quantity", .x_label = "NIS; right is 1", .reference = 1.0, .digits = 3};
   chart.wanted_label = "95 % of right filters";
-  std::set<std::string> names;
+  std::map<std::string, std::map<std::string, InnovationTally>> tallies;  // by part, and when
   for (const auto& [when, diagnosis] : findings.diagnoses)
     for (const auto* parts : {&diagnosis.sensors, &diagnosis.modes})
-      for (const auto& part : *parts) names.insert(part.name);
-  chart.rows.assign(names.begin(), names.end());
+      for (const auto& part : *parts) tallies[part.name][when] = part.innovations;
   for (const auto& [when, diagnosis] : findings.diagnoses) {
-    std::map<std::string, const InnovationTally*> tallies;
-    for (const auto* parts : {&diagnosis.sensors, &diagnosis.modes})
-      for (const auto& part : *parts) tallies[part.name] = part.innovations.count() > 0 ? &part.innovations : nullptr;
     IntervalSeries& series = chart.series.emplace_back(IntervalSeries{.name = when, .group = when});
-    for (const auto& name : chart.rows) {
-      const auto* const tally = tallies[name];
-      const Band band = tally ? tally->band() : Band{nan, nan};
-      series.values.push_back({tally ? tally->mean_square() : nan, 0.0});
+    for (auto& [name, own] : tallies) {
+      const InnovationTally& tally = own[when];
+      const bool any = tally.count() > 0;
+      const Band band = any ? tally.band() : Band{nan, nan};
+      series.values.push_back({any ? tally.mean_square() : nan, 0.0});
       series.wanted.push_back({band.lower, band.upper});
     }
   }
+  for (const auto& [name, own] : tallies) chart.rows.push_back(name);
   return {findings.name(), {std::move(chart)}};
 }
 
@@ -160,28 +158,15 @@ void add_diagnosis(Result& result, const Findings& findings) {
   if (diagnosis.rmse_m) result.fact({"filters", name, when, "rmse_m"}, *diagnosis.rmse_m);
 }
 
-/// The rows that the gate turned away: how many, and the first lines of them.
-void add_set_aside(Result& result, const Findings& findings, const TuneData& data) {
-  constexpr std::size_t most_lines = 8;
-  const auto lines = each(findings.diagnoses.back().second.set_aside, [&](const RowPlace& place) {
-    return fmt::format("{}:{}", data.tracks[place.track].file, data.row(place).line);
-  });
-  result.fact({"filters", findings.name(), "best", "set_aside"}, lines);
-  const auto first = std::span(lines).first(std::min(lines.size(), most_lines));
-  if (!lines.empty())
-    result.say("{} row{} set aside, as the gate will in track: {}{}.", lines.size(), lines.size() == 1 ? "" : "s",
-               fmt::join(first, ", "), lines.size() > most_lines ? ", …" : "");
-}
-
 /// What came of it.
-std::string verdict_of(const Findings& findings, Objective objective) {
+std::string verdict_of(const Findings& findings, bool by_truth) {
   const TunedFilter& tuned = findings.tuned;
   const Candidate& best = tuned.best();
   if (tuned.selected.best == 0)
     return fmt::format("{}: no settings are better than those before, which are written.", findings.name());
   std::string text = fmt::format("{}: {} with {} fitted numbers is best; held out it has {:.4g} {} rather than {:.4g}.",
-                                 findings.name(), best.name, best.fitted_numbers, figure_of(best.held_out, objective),
-                                 unit_of(objective), figure_of(tuned.before().held_out, objective));
+                                 findings.name(), best.name, best.fitted_numbers, figure_of(best.held_out, by_truth),
+                                 unit_of(by_truth), figure_of(tuned.before().held_out, by_truth));
   const auto &before = findings.diagnoses.front().second.rmse_m, &now = findings.diagnoses.back().second.rmse_m;
   if (before && now) text += fmt::format(" RMSE against the truth: {:.4g} m before, {:.4g} m now.", *before, *now);
   return text;
@@ -191,7 +176,7 @@ std::string verdict_of(const Findings& findings, Objective objective) {
 void tune_and_add(Result& result, const FilterSettings& filter, TuneData& data, const TuneOptions& options,
                   std::vector<FilterSettings>& written) {
   Findings findings;
-  Diagnosis before = diagnose(data, filter, options.objective);
+  Diagnosis before = diagnose(data, filter, options.truth);
   findings.tuned = tune(filter, data, options);
   const TunedFilter& tuned = findings.tuned;
   const auto add = [&](const ResultTable& table, const char* key, const std::string& title) {
@@ -203,17 +188,16 @@ void tune_and_add(Result& result, const FilterSettings& filter, TuneData& data, 
   findings.diagnoses.emplace_back("before", std::move(before));
   add_diagnosis(result, findings);
   const ResultTable changes = changes_table(tuned);
-  add(candidates_table(tuned, options.objective), "candidates", "sets of models");
+  add(candidates_table(tuned, options.truth), "candidates", "sets of models");
   add(changes, "settings", "settings that change");
   if (changes.empty()) result.text += "\nNo setting changes.\n";
   add(numbers_table(tuned), "numbers", "fitted numbers");
   add(folds_table(tuned, options, data), "held_out", "held out, by fold");
   if (tuned.selected.best > 0) {
-    findings.diagnoses.emplace_back("best", diagnose(data, tuned.best().settings, options.objective));
+    findings.diagnoses.emplace_back("best", diagnose(data, tuned.best().settings, options.truth));
     add_diagnosis(result, findings);
-    add_set_aside(result, findings, data);
   }
-  result.page.verdict.push_back(verdict_of(findings, options.objective));
+  result.page.verdict.push_back(verdict_of(findings, options.truth));
   result.say("\n" + result.page.verdict.back());
   result.page.views.push_back(view_of(findings));
   written.push_back(tuned.best().settings);
@@ -223,29 +207,18 @@ void tune_and_add(Result& result, const FilterSettings& filter, TuneData& data, 
   }
 }
 
-Objective objective_named(const std::string& truth) {
-  if (truth.empty() || truth == "false") return Objective::prequential;
-  if (truth == "rmse" || truth == "true") return Objective::rmse;
-  if (truth == "density") return Objective::density;
-  throw UsageError(
-      {.what = "--truth", .found = in_quotes(truth), .expected = "--truth, --truth=rmse or --truth=density"});
-}
-
 std::string heading(const TuneData& data, const TuneOptions& options) {
   const std::array by = {"how well each measurement was predicted (nats a row; less is better)",
-                         "the RMSE of the position against the truth",
-                         "the density of the true position (nats a row; less is better)"};
+                         "the RMSE of the position against the truth"};
   const std::string short_ones = data.too_short > 0 ? fmt::format(" ({} too short)", data.too_short) : "";
   return fmt::format("{} measurements of {} track{}{}, judged by {}. Held out: {} folds {}.", data.measurements,
-                     data.tracks.size(), data.tracks.size() == 1 ? "" : "s", short_ones,
-                     by.at(static_cast<std::size_t>(options.objective)), options.folds,
-                     data.tracks.size() >= 2 * options.folds ? "of tracks" : "in time");
+                     data.tracks.size(), data.tracks.size() == 1 ? "" : "s", short_ones, by[options.truth ? 1 : 0],
+                     options.folds, data.tracks.size() >= 2 * options.folds ? "of tracks" : "in time");
 }
 
 }  // namespace
 
 void run_tune(TuneOptions options) {
-  options.objective = objective_named(options.truth);
   auto filters = filters_for(options.recording, options.filters, options.radar.sigma);
   if (options.filters.print_config) {
     fmt::print("{}", as_toml(filters));
@@ -253,7 +226,7 @@ void run_tune(TuneOptions options) {
   }
   for (const auto& filter : filters) {
     // The likelihood that has no determinant finds any measurement possible where the noise is great enough.
-    if (options.objective == Objective::prequential && filter.likelihood == LikelihoodForm::possibility)
+    if (!options.truth && filter.likelihood == LikelihoodForm::possibility)
       throw InputError(
           "filter '{}': likelihood = \"possibility\": expected \"density\", since a possibility never blames noise "
           "that is too great; tune with --truth, or with likelihood=density",
@@ -275,7 +248,7 @@ void run_tune(TuneOptions options) {
   result.page.chooser = "Filter";
   result.page.groups = {{"before"}, {"best"}};
   result.page.verdict = {heading(data, options)};
-  result.facts("measurements", data.measurements, "objective", std::string(unit_of(options.objective)), "folds",
+  result.facts("measurements", data.measurements, "objective", std::string(unit_of(options.truth)), "folds",
                options.folds, "seed", options.seed);
   result.say(heading(data, options));
   for (const std::string& note : data.notes) result.say(note);

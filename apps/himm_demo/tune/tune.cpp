@@ -1,4 +1,4 @@
-#include "himm_demo/tune/options.hpp"
+#include "himm_demo/tune/tune.hpp"
 #include "shell/command_line.hpp"
 
 namespace sigmax::apps {
@@ -16,14 +16,13 @@ void add_tune(CLI::App& program, const std::string& command) {
   options->output.command = command;
   app.option("file", options->files, "Recordings, as track reads them").required().type("FILE.csv");
   add_recording(app, options->recording, options->radar);
-  app.flag("--truth{rmse}", options->truth,
-           "Judge by the truth that the recording has: by its RMSE, or by its density with --truth=density");
+  app.flag("--truth", options->truth, "Judge by the truth that the recording has: by its RMSE");
   app.option("--models", options->models,
              "Sets of models to choose from, as dwna,dwna+dwpa [the filter's, and each of them alone]")
-      .list_alone()
+      .list()
       .type("SET,…");
   app.option("--keep", options->fixed, "What is left as it is: models, sensors, transition, augmentation")
-      .list_alone()
+      .list()
       .one_of({"models", "sensors", "transition", "augmentation"})
       .type("WHAT,…");
   app.option("--folds", options->folds, "Parts of the rows, or of the tracks, each held out once").in(2, 20);

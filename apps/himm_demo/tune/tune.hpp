@@ -1,20 +1,39 @@
 #pragma once
 
+#ifdef SIGMAX_TUNING
 #include <sigmax/estimation/consistency.hpp>
 #include <sigmax/tuning/target.hpp>
 #include <sigmax/tuning/tune.hpp>
+#endif
 
 #include "himm_demo/filters/settings.hpp"
-#include "himm_demo/tune/options.hpp"
-#include "records/recording.hpp"
-#include "shell/progress.hpp"
+#include "report/result.hpp"
 
 namespace sigmax::apps {
 
-/// A row: the number of its track, and its own there.
-struct RowPlace {
-  std::size_t track, row;
+/// The options of `himm_demo tune`.
+struct TuneOptions {
+  std::vector<std::string> files;
+  RecordingOptions recording;  ///< of each of them
+  RadarOptions radar;
+  bool truth = false;               ///< whether it judges by the RMSE against the truth rather than by the log_score
+  std::vector<std::string> models;  ///< sets to choose from, as dwna+dwpa; empty: those of the filter, and each alone
+  std::vector<std::string> fixed;   ///< what is not fitted
+  std::size_t folds = 4;
+  std::size_t starts = 2;
+  std::uint64_t seed = 1;
+  int threads = 0;
+  FilterOptions filters;
+  std::string out;       ///< a file for the settings, or empty
+  OutputOptions output;  ///< its summary, report and command
+
+  bool fits(std::string_view what) const { return std::ranges::find(fixed, what) == fixed.end(); }
 };
+
+/// Tunes, prints and writes.
+void run_tune(TuneOptions options);
+
+#ifdef SIGMAX_TUNING
 
 /// Whose accuracy is to be fitted: what a sensor measured where the row does not say how well.
 struct TuneSensor {
@@ -53,7 +72,6 @@ struct TuneData {
   RobustLoss robust{{}, scale};
   double most_strays = 0.05;  ///< the share of rows that settings may take for stray ones
 
-  const Row& row(const RowPlace& place) const { return tracks[place.track].rows[place.row]; }
   RowFolds folds(std::size_t count) const;
 };
 
@@ -61,19 +79,19 @@ struct TuneData {
 /// `track` refuses too, for files of different axes, and where there is too little to fit.
 TuneData read_tune_data(const TuneOptions& options, const FilterSettings& settings);
 
-/// What a filter loses at each row, see Objective; of the RMSE the squared distance. `look(track, now)`, if given, sees
-/// what the filter knows after each row, the tag of `now`; each fourth row from one on may be withheld. Throws
+/// What a filter loses at each row, in nats; by the truth the squared distance from it. `look(track, now)`, if given,
+/// sees what the filter knows after each row, the tag of `now`; each fourth row from one on may be withheld. Throws
 /// std::domain_error where the filter fails.
 inline constexpr std::size_t no_row = std::numeric_limits<std::size_t>::max();
 using Look = std::function<void(std::size_t track, const TargetPoint& now)>;
-RowLosses losses(const TuneData& data, const FilterSettings& settings, Objective objective, const Look& look = {},
+RowLosses losses(const TuneData& data, const FilterSettings& settings, bool by_truth, const Look& look = {},
                  std::size_t withhold = no_row);
 
 /// The number in the middle; they come into another order.
 double median(std::vector<double>& numbers);
 
 /// What is made least: nats a row, or of the RMSE its logarithm.
-double objective_of(const TuneData& data, const RowLosses& losses, Objective objective, const RowCounts& counts = {});
+double objective_of(const TuneData& data, const RowLosses& losses, bool by_truth, const RowCounts& counts = {});
 
 /// A number that was fitted. A standard error that is infinite says that it is not identifiable.
 struct FittedNumber {
@@ -122,15 +140,16 @@ struct Diagnosis {
     double weight = 0.0;  ///< mean, of a mode
   };
   std::vector<Part> sensors;
-  std::vector<Part> modes;            ///< rows of which the mode is the most likely
-  std::optional<double> rmse_m;       ///< where the truth is known
-  std::vector<RowPlace> set_aside{};  ///< that the gate turned away
+  std::vector<Part> modes;       ///< rows of which the mode is the most likely
+  std::optional<double> rmse_m;  ///< where the truth is known
 };
 
 /// Throws InputError where the filter fails or makes no estimate.
-Diagnosis diagnose(const TuneData& data, const FilterSettings& settings, Objective objective);
+Diagnosis diagnose(const TuneData& data, const FilterSettings& settings, bool by_truth);
 
 /// What is wrong with a sensor, in words.
 std::string_view verdict_of(const InnovationTally& sensor);
+
+#endif
 
 }  // namespace sigmax::apps

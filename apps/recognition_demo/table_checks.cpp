@@ -1,11 +1,9 @@
-#include "checks/table_checks.hpp"
+#include "recognition_demo/learning.hpp"
 
-#include <array>
 #include <map>
 #include <set>
 
-#include "shell/command_line.hpp"
-#include "shell/text.hpp"
+#include <boost/functional/hash.hpp>
 
 namespace sigmax::apps {
 namespace {
@@ -168,11 +166,8 @@ std::string copies(const LabelledTable& table) {
   std::set<std::pair<std::size_t, std::size_t>> rows;  // class and hash
   for (std::size_t row = 0; row < table.size(); ++row) {
     std::size_t hash = 0;
-    for (const TableColumn& column : table.columns) {
-      const double value = column.cells[row];
-      hash = (hash ^ std::hash<double>{}(std::isnan(value) ? infinity : value)) * 0x9E3779B97F4A7C15U;
-      hash ^= hash >> 32U;
-    }
+    for (const TableColumn& column : table.columns)
+      boost::hash_combine(hash, std::isnan(column.cells[row]) ? infinity : column.cells[row]);
     rows.emplace(table.labels[row], hash);
   }
   const std::size_t all = table.size(), copied = all - rows.size();
