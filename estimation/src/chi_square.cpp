@@ -1,6 +1,5 @@
 #include <sigmax/estimation/chi_square.hpp>
 
-#include <cmath>
 #include <stdexcept>
 
 #include <boost/math/special_functions/gamma.hpp>
@@ -12,12 +11,6 @@ namespace {
 using Policy = boost::math::policies::policy<boost::math::policies::promote_double<false>>;
 
 }  // namespace
-
-double chi_square_cdf(double x, double degrees) {
-  if (!(degrees > 0.0) || !(x >= 0.0))
-    throw std::invalid_argument("chi_square_cdf needs x >= 0 and degrees of freedom > 0");
-  return std::isinf(x) ? 1.0 : boost::math::gamma_p(0.5 * degrees, 0.5 * x, Policy{});
-}
 
 double chi_square_quantile(double probability, double degrees) {
   if (!(probability > 0.0 && probability < 1.0) || !(degrees > 0.0))

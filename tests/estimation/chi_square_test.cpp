@@ -15,23 +15,11 @@ double upper_tail(double x, int degrees) {
   return sum;
 }
 
-TEST(ChiSquare, TheCdfIsTheFiniteSum) {
-  for (const int degrees : all_degrees)
-    for (const double factor : {1e-3, 0.1, 0.5, 0.9, 0.99, 1.0, 1.01, 1.1, 2.0, 5.0})
-      EXPECT_CLOSE(chi_square_cdf(factor * degrees, degrees), 1.0 - upper_tail(factor * degrees, degrees), 1e-10)
-          << degrees << " degrees, " << factor;
-}
-
 TEST(ChiSquare, TheQuantileHasItsProbability) {
   for (const int degrees : all_degrees)
     for (const double probability : {1e-6, 0.005, 0.025, 0.05, 0.5, 0.9, 0.975, 0.995, 1.0 - 1e-6})
       EXPECT_CLOSE(1.0 - upper_tail(chi_square_quantile(probability, degrees), degrees), probability, 1e-10)
           << degrees << " degrees, " << probability;
-}
-
-TEST(ChiSquare, TheEndsAreExact) {
-  EXPECT_EQ(chi_square_cdf(0.0, 3), 0.0);
-  EXPECT_EQ(chi_square_cdf(infinity, 3), 1.0);
 }
 
 TEST(ChiSquare, TheBandOfAMeanIsThatOfTheSumDivided) {
@@ -45,11 +33,8 @@ TEST(ChiSquare, TheBandOfAMeanIsThatOfTheSumDivided) {
 }
 
 TEST(ChiSquare, RefusesWhatHasNoAnswer) {
-  for (const double degrees : {0.0, -1.0, not_a_number}) {
-    EXPECT_INVALID(("chi_square_cdf"), chi_square_cdf(1.0, degrees));
+  for (const double degrees : {0.0, -1.0, not_a_number})
     EXPECT_INVALID(("chi_square_quantile"), chi_square_quantile(0.5, degrees));
-  }
-  for (const double x : {-1e-9, not_a_number}) EXPECT_INVALID(("chi_square_cdf"), chi_square_cdf(x, 3));
   for (const double probability : {0.0, 1.0, -0.1, 1.1, not_a_number})
     EXPECT_INVALID(("chi_square_quantile"), chi_square_quantile(probability, 3));
 }

@@ -2,12 +2,8 @@
 
 namespace sigmax {
 
-/// P(χ² ≤ x) with `degrees` degrees of freedom: the regularised lower incomplete gamma function P(degrees/2, x/2).
-/// Throws std::invalid_argument unless degrees > 0 and x ≥ 0.
-double chi_square_cdf(double x, double degrees);
-
-/// The x with P(χ² ≤ x) = probability, to about 1e-12 relative. Throws std::invalid_argument unless 0 < probability < 1
-/// and degrees > 0.
+/// The x with P(χ² ≤ x) = probability for so many degrees of freedom, to about 1e-12 relative. Throws
+/// std::invalid_argument unless 0 < probability < 1 and degrees > 0.
 double chi_square_quantile(double probability, double degrees);
 
 /// The interval in which the mean of `count` independent χ² variables lies with the given probability.
