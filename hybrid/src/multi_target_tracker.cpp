@@ -55,6 +55,7 @@ void Tracking::scan(std::span<const AnyDetection> given) {
     return std::tie(each.time, each.sensor, each.size, each.z, each.origin, each.tag);
   });
   spots.clear();
+  spots.reserve(order.size());
   for (const auto& [each, place] : order) {
     spots.push_back({chosen_detection(*each, choice.axes), place, {each->tag, {}}});
     if (!check::finite(spots.back().detection.measurement()))

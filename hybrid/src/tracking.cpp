@@ -59,7 +59,6 @@ class Tracks final : public Tracking {
     Existence<Pattern> existence;
     double first_time;
     std::size_t tag;
-    State missed;  ///< without a detection, at the end of the scan
     bool confirmed = false;
     std::size_t scans = 0;  ///< after the first
     std::size_t detected = 1;
@@ -71,14 +70,16 @@ class Tracks final : public Tracking {
   struct Hypothesis {
     State* state;
     double time, log_weight;
+    bool seen = true;
   };
 
   void take_scan(double elapsed) override {
     const auto survival = Existence<Pattern>::survival(std::pow(rules.survival_per_s, elapsed));
     problem_.clear();
-    for (Track& track : tracks_) {
-      track.existence.predict(survival);
-      add_row(track);
+    missed_.resize(std::max(missed_.size(), tracks_.size()), mixed_);
+    for (std::size_t row = 0; row < tracks_.size(); ++row) {
+      tracks_[row].existence.predict(survival);
+      add_row(tracks_[row], missed_[row]);
     }
     const Matching matching = match_(problem_, {});
     exact = exact && matching.exact;
@@ -97,12 +98,12 @@ class Tracks final : public Tracking {
   }
 
   /// The hypotheses of a track, and their weights in the matching.
-  void add_row(Track& track) {
+  void add_row(const Track& track, State& missed) {
     // P_D = 1 of a target that certainly exists leaves no event without a detection, but data may.
     problem_.add_row(std::max(track.existence.log_none(weights_), -1e3));
     if (spots.empty() || !step(track, time)) return;
     const MultipleModelFilter<Kind>& filter = filter_();
-    track.missed = filter.state();
+    missed = filter.state();
     overlapping(expected(time - std::max(spots.front().detection.time, track.time)), found_);
     const double log_detected = track.existence.log_presence() + weights_.log_detected;
     for (const std::size_t i : found_) {
@@ -174,7 +175,7 @@ class Tracks final : public Tracking {
       if (track.confirmed) spot.explained_by_confirmed = A::plus(spot.explained_by_confirmed, support);
       if (!spot.owner.track || support > spot.owner.support) spot.owner = {spot.owner.tag, track.number, support};
     }
-    hypotheses_.push_back({&track.missed, time, log_missed});
+    hypotheses_.push_back({&missed_[row], time, log_missed, false});
     const std::size_t none = entries.size();
     std::size_t best = index_of_greatest(entries.values);
     const auto taken = [&]() -> Spot& { return spots[entries.index(best)]; };
@@ -207,11 +208,11 @@ class Tracks final : public Tracking {
     for (const Hypothesis& each : hypotheses_) greatest = std::max(greatest, each.log_weight);
     std::erase_if(hypotheses_, [&](const auto& each) { return each.log_weight < greatest - 30.0; });  // one in 10¹³
     for (const Hypothesis& each : hypotheses_)
-      if (each.state != &track.missed) latest = std::max(latest, each.time);
+      if (each.seen) latest = std::max(latest, each.time);
     const Hypothesis& winner = *std::ranges::max_element(hypotheses_, {}, &Hypothesis::log_weight);
     const std::size_t parts = hypotheses_.size();
     if (parts == 1) {
-      if (winner.state != &track.missed) {
+      if (winner.seen) {
         std::swap(track.state, *winner.state);
         track.time = winner.time;
       }
@@ -258,9 +259,8 @@ class Tracks final : public Tracking {
       start.covariance(i, i) =
           i < 2 * axes ? sigma_velocity * sigma_velocity : choice.entry.variance(i % axes == 2 ? "az" : "ax", scale);
     filter_().restart(chosen_start(choice, view(start), view(start)));
-    const State& state = filter_().state();
     const double at = spot.detection.time;
-    tracks_.push_back({++born_, state, at, Existence<Pattern>(rules.birth_existence), at, spot.owner.tag, state});
+    tracks_.push_back({++born_, filter_().state(), at, Existence<Pattern>(rules.birth_existence), at, spot.owner.tag});
     spot.owner = {spot.owner.tag, born_, 0.0, true};
   }
 
@@ -272,7 +272,7 @@ class Tracks final : public Tracking {
   State mixed_;
   // Of the scan in hand:
   Choices problem_;
-  std::vector<State> states_;  ///< if an entry of the problem is taken; keeps its memory
+  std::vector<State> states_, missed_;  ///< if an entry of the problem is taken, or none of a row; keep their memory
   std::vector<std::size_t> found_;
   std::vector<Hypothesis> hypotheses_;  ///< of one track
 };
