@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
-#include <set>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -50,7 +50,6 @@ std::map<std::size_t, std::vector<Close>> connected(std::span<const Close> pairs
 /// A sequence of assignments: the last one, and what all cost, less what it costs to assign nothing.
 struct State {
   Partners partners;
-  std::set<int> taken{};  ///< tracks of this scan that later targets are close to as well
   double localisation = 0.0, cost = 0.0;
   std::size_t pairs = 0, half_switches = 0;
 };
@@ -64,32 +63,23 @@ class Cluster {
     states_.push_back({Partners(trajectories, fresh)});
   }
 
-  /// One connected group of a scan, target by target: each takes a track, or none.
+  /// One connected group of a scan.
   void decide(std::span<const Close> group) {
-    Choices savings;
-    for (std::size_t k = 0; k < group.size(); ++k) {
-      if (k == 0 || group[k].target != group[k - 1].target) savings.add_row(0.0);
-      savings.add(at(group[k].track), pair_ - group[k].cost);
+    options_.clear();
+    for (const Close& pair : group) {
+      if (options_.empty() || options_.back().front().target != pair.target) options_.emplace_back();
+      options_.back().push_back(pair);
     }
-    // The logarithm of a max-marginal is what is lost by a choice. A state that loses more than nine half switches a
-    // target never pays: compared with the best pairs of this scan, and with switches to those pairs and back.
-    const Choices losses = match<Fuzzy, Fuzzy>(savings).marginals;
-    const double limit = -9.0 * half_switch_ * static_cast<double>(losses.rows());
-    for (std::size_t row = 0; row < losses.rows(); ++row) {
-      const auto logs = losses.entries(row).values;
-      const auto pairs = group.subspan(losses.offset(row), logs.size());
-      const auto later = group.subspan(losses.offset(row) + logs.size());
-      std::vector<State> next;
-      for (const State& state : states_) {
-        const std::size_t before = next.size();
-        for (std::size_t k = 0; k < pairs.size(); ++k)
-          if (logs[k] >= limit && !state.taken.contains(pairs[k].track)) next.push_back(with(state, pairs[k]));
-        if (losses.none(row) >= limit || next.size() == before) next.push_back(state);
-      }
-      for (State& state : next)
-        std::erase_if(state.taken, [&](int track) { return std::ranges::count(later, track, &Close::track) == 0; });
-      keep_what_may_win(std::move(next));
+    gains_.assign(options_.size() + 1, 0.0);
+    for (std::size_t n = options_.size(); n-- > 0;)
+      gains_[n] = gains_[n + 1] + pair_ - std::ranges::min(options_[n], {}, &Close::cost).cost;
+    for (const State& state : states_) {
+      limit_ = std::numeric_limits<double>::infinity();
+      reach(likely(state));
+      trials_ = 100 * max_states_ / states_.size();
+      choose(0, state);
     }
+    keep_what_may_win();
   }
 
   const State& best() const { return states_.front(); }
@@ -97,8 +87,7 @@ class Cluster {
 
  private:
   State with(State state, const Close& pair) const {
-    auto& [partners, taken, localisation, cost, pairs, half_switches] = state;
-    taken.insert(pair.track);
+    auto& [partners, localisation, cost, pairs, half_switches] = state;
     localisation += pair.cost;
     ++pairs;
     if (partners[at(pair.target)] != pair.track) {
@@ -115,34 +104,81 @@ class Cluster {
     return state;
   }
 
-  /// Drops what a cheaper state can turn into by switches, and still is not dearer, whatever comes.
-  void keep_what_may_win(std::vector<State> states) {
-    std::ranges::stable_sort(states, {}, &State::cost);
+  /// What follows a state if each new pair were three half switches: often the best.
+  State likely(State state) const {
+    Choices savings;
+    for (const auto& options : options_) {
+      savings.add_row(0.0);
+      for (const Close& pair : options)
+        savings.add(at(pair.track),
+                    pair_ - pair.cost - (state.partners[at(pair.target)] == pair.track ? 0.0 : 3.0 * half_switch_));
+    }
+    const auto columns = match<Fuzzy, Fuzzy>(savings, {.marginals = false}).best;
+    for (std::size_t n = 0; n < columns.size(); ++n)
+      for (const Close& pair : options_[n])
+        if (at(pair.track) == columns[n]) state = with(std::move(state), pair);
+    return state;
+  }
+
+  /// Tries all that the n-th target may do, after those before it, whose tracks are taken.
+  void choose(std::size_t n, const State& state) {
+    if (state.cost - gains_[n] >= limit_) return;
+    if (trials_ == 0) exact_ = false;
+    if (trials_ == 0) return;
+    --trials_;
+    if (n == options_.size()) return reach(state);
+    for (const Close& pair : options_[n]) {
+      if (std::ranges::count(taken_, pair.track) > 0) continue;
+      taken_.push_back(pair.track);
+      choose(n + 1, with(state, pair));
+      taken_.pop_back();
+    }
+    choose(n + 1, state);
+  }
+
+  void reach(const State& state) {
+    // Two assignments that follow one differ by at most six half switches a target; see `half_switches`.
+    limit_ = std::min(limit_, state.cost + 6.0 * half_switch_ * static_cast<double>(options_.size()));
+    const auto [place, is_new] = reached_.try_emplace(state.partners, state);
+    if (!is_new && state.cost < place->second.cost) place->second = state;
+  }
+
+  /// Drops assignments that a cheaper one reaches by switches, and still is not dearer, whatever comes.
+  void keep_what_may_win() {
+    std::vector<const State*> by_cost;
+    for (const auto& [partners, state] : reached_) by_cost.push_back(&state);
+    std::ranges::stable_sort(by_cost, {}, &State::cost);
     states_.clear();
-    for (State& state : states) {
+    for (const State* state : by_cost) {
       const auto beats = [&](const State& other) {
-        return other.cost + half_switch_ * half_switches(other.partners, state.partners) <= state.cost &&
-               std::ranges::includes(state.taken, other.taken);
+        return other.cost + half_switch_ * half_switches(other.partners, state->partners) <= state->cost;
       };
       if (std::ranges::any_of(states_, beats)) continue;
-      exact_ = exact_ && states_.size() < max_states_;
-      if (states_.size() == max_states_) break;
-      states_.push_back(std::move(state));
+      if (states_.size() == max_states_) exact_ = false;
+      if (states_.size() < max_states_) states_.push_back(*state);
     }
+    reached_.clear();
   }
 
   /// Half switches from one assignment to another, and those that what is fresh there may save later.
   static double half_switches(const Partners& from, const Partners& to) {
-    int result = 0;
+    double result = 0.0;
     for (std::size_t i = 0; i < from.size(); ++i)
-      if (from[i] != to[i]) result += (from[i] >= 0 ? 1 : 0) + (to[i] >= 0 ? 1 : to[i] == fresh ? 2 : 0);
-    return 0.5 * result;
+      if (from[i] != to[i]) result += (from[i] >= 0 ? 0.5 : 0.0) + (to[i] >= 0 ? 0.5 : to[i] == fresh ? 1.0 : 0.0);
+    return result;
   }
 
   double pair_, half_switch_;
   std::size_t max_states_;
   bool exact_ = true;
   std::vector<State> states_;  ///< the cheapest first
+
+  std::vector<std::vector<Close>> options_;  ///< of each target of the group
+  std::vector<double> gains_;                ///< what the n-th target and those after it save at most
+  double limit_ = 0.0;                       ///< what costs as much never pays
+  std::size_t trials_ = 0;                   ///< that are left
+  std::vector<int> taken_;
+  std::map<Partners, State> reached_;
 };
 
 std::size_t count_positions(std::span<const Trajectory> trajectories, std::size_t& coordinates) {

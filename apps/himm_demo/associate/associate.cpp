@@ -33,7 +33,8 @@ void associate(const AssociateOptions& options) {
   const int axes = recording.axes();
   MultiTargetTracker tracker = tracker_for(options, filter, axes, options.association.choice);
   AssociateHistory history(axes);
-  Progress progress(recording.file(), scans.scans(), options.output.quiet);
+  const auto total = recording.csv().bytes_total();
+  Progress progress(recording.file(), total.value_or(1), options.output.quiet || !total);
   for (Scan scan; scans.next(scan);) {
     try {
       tracker.scan(each(scan, &Row::detection));
@@ -55,7 +56,7 @@ void associate(const AssociateOptions& options) {
       const EarthPoint point = scans.frame() ? on_earth(estimate, *scans.frame(), axes) : EarthPoint{estimate, {}};
       tracks_file.write(std::to_string(number), filter, point, existence);
     }
-    progress.advance();
+    progress.advance(recording.csv().bytes_read() - progress.done());
   }
   progress.finish();
 

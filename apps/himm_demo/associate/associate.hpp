@@ -1,6 +1,8 @@
 #pragma once
 
+#include <deque>
 #include <sigmax/estimation/trajectory_gospa.hpp>
+
 #include <sigmax/hybrid/multi_target_tracker.hpp>
 
 #include "himm_demo/filters/settings.hpp"
@@ -91,11 +93,10 @@ std::optional<Known> between(const std::vector<Known>& path, double time);
 /// Reads a recording scan by scan: by --scan, rows of equal times, or turns of a radar.
 class ScanReader {
  public:
-  /// Reads all rows. What it is made of must live as long. Throws InputError with file, line and column, and where
-  /// nothing tells what a scan is.
+  /// What it is made of must live as long. Throws InputError where nothing tells what a scan is.
   ScanReader(const AssociateOptions& options, RecordingReader& recording, const FilterSettings& filter);
 
-  /// The next scan; false at the end.
+  /// The next scan; false at the end. Throws InputError with file, line and column.
   bool next(Scan& scan);
 
   /// The frame of positions on the Earth.
@@ -105,12 +106,12 @@ class ScanReader {
   std::vector<std::string> notes() const;
 
   std::size_t rows() const { return rows_; }
-  std::size_t scans() const { return size_; }
 
  private:
+  bool read(Row& row);
   void place(Row& row);
-  void split(std::vector<Row>& rows);
-  void take_for_truth(const std::vector<Row>& rows);
+  void take(Row& row);
+  void take_for_truth();
   Scan simulated(double time);
 
   const AssociateOptions& options_;
@@ -119,9 +120,12 @@ class ScanReader {
   int axes_ = recording_.axes();
   SensorPlaces places_{filter_, recording_, options_.radar.place()};
   std::optional<LocalFrame> frame_;
-  std::vector<Scan> scans_;
-  std::string scan_is_;
-  std::size_t rows_ = 0, unplaced_ = 0, size_ = 0, number_ = 0;
+  std::deque<Row> ahead_;   // read to find out what a scan is
+  std::deque<Scan> scans_;  // the first `whole_` have all their rows
+  double turn_ = 0.0;       // which way azimuths go: 1 or −1; 0 for equal times
+  double azimuth_ = nan, angle_ = 0.0;
+  std::size_t rows_ = 0, unplaced_ = 0, whole_ = 0;
+  std::size_t number_ = 0;  // of the window, turn or time
   // Of a simulated radar: where everybody was, and what it may take for a target.
   std::map<std::string, std::vector<Known>> truth_;
   RandomStream random_{options_.seed, 0};

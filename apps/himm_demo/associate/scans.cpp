@@ -17,7 +17,7 @@ double turn_between(double from, double to, double direction) {
 }
 
 /// Which way the azimuths of a radar go round, 1 or −1; 0 where a scan is rows of equal times.
-double direction_of_turns(std::span<const Row> rows, const std::string& file) {
+double direction_of_turns(const std::vector<Row>& rows, const std::string& file) {
   std::size_t equal = 0;
   double forwards = 0.0, back = 0.0;
   for (std::size_t i = 1; i < rows.size(); ++i) {
@@ -44,11 +44,24 @@ double direction_of_turns(std::span<const Row> rows, const std::string& file) {
 
 ScanReader::ScanReader(const AssociateOptions& options, RecordingReader& recording, const FilterSettings& filter)
     : options_(options), recording_(recording), filter_(filter) {
-  std::vector<Row> rows;
-  for (Row row; recording.next(row); rows.push_back(row)) place(row);
-  rows_ = rows.size();
-  if (rows.empty()) return;
-  options.radar.sigma ? take_for_truth(rows) : split(rows);
+  if (options.radar.sigma) take_for_truth();
+  std::vector<Row> first;
+  for (Row row; !options.scan_s && first.size() < looked_at && read(row);) first.push_back(std::move(row));
+  if (!first.empty()) turn_ = direction_of_turns(first, recording.file());
+  ahead_.assign(first.begin(), first.end());
+}
+
+/// The next row with its detection in the frame of all.
+bool ScanReader::read(Row& row) {
+  if (!ahead_.empty()) {
+    row = std::move(ahead_.front());
+    ahead_.pop_front();
+    return true;
+  }
+  if (!recording_.next(row)) return false;
+  ++rows_;
+  place(row);
+  return true;
 }
 
 /// Brings the row's detection into the frame of all.
@@ -64,49 +77,38 @@ void ScanReader::place(Row& row) {
   if (!here) ++unplaced_;
 }
 
-/// Of each window, turn or time the scans of its sensors; and scans without a detection for windows without a row.
-void ScanReader::split(std::vector<Row>& rows) {
-  const double first_time = rows.front().detection.time;
-  double turn = 0.0, azimuth = nan, before = first_time, angle = 0.0;
-  if (!options_.scan_s)
-    turn = direction_of_turns(std::span(rows).first(std::min(rows.size(), looked_at)), recording_.file());
-  std::size_t number = 0, begin = 0;  // of the window, and of its first scan
-  for (Row& row : rows) {
-    const double time = row.detection.time;
-    std::size_t now = number;
-    if (options_.scan_s) {
-      now = static_cast<std::size_t>((time - first_time) / *options_.scan_s * (1.0 + 1e-12) + 1e-9);
-    } else if (turn == 0.0) {
-      now += std::exchange(before, time) != time ? 1U : 0U;
-    } else if (row.measured()) {
-      if (!std::isnan(azimuth)) angle += turn_between(azimuth, row.detection.z[1], turn);
-      azimuth = row.detection.z[1];
-      now = std::max(number, static_cast<std::size_t>(std::max(0.0, angle / whole_turn)));
-    }
-    if (now != number) {
-      for (std::size_t k = number + 1; options_.scan_s && k < std::min(now, number + most_empty); ++k)
-        scans_.push_back({{.detection = AnyDetection::missed(first_time + static_cast<double>(k) * *options_.scan_s)}});
-      number = now;
-      begin = scans_.size();
-    }
-    const auto sensor = [](const Scan& scan) { return scan.front().sensor; };
-    auto own = std::ranges::find(scans_.begin() + static_cast<std::ptrdiff_t>(begin), scans_.end(), row.sensor, sensor);
-    if (own == scans_.end()) own = scans_.insert(own, Scan());
-    row.detection = with_sensor_noise(filter_, row.sensor, row.detection, axes_);
-    row.detection.tag = own->size();
-    own->push_back(std::move(row));
+/// Puts a row into the scan of its sensor in its window, turn or time. Windows without a row are scans without a
+/// detection.
+void ScanReader::take(Row& row) {
+  const double time = row.detection.time, before = std::exchange(last_time_, time);
+  if (std::isinf(first_time_)) first_time_ = time;
+  std::size_t now = number_;
+  if (options_.scan_s) {
+    now = static_cast<std::size_t>((time - first_time_) / *options_.scan_s * (1.0 + 1e-12) + 1e-9);
+  } else if (turn_ == 0.0) {
+    now += time > before && !scans_.empty() ? 1U : 0U;
+  } else if (row.measured()) {
+    if (!std::isnan(azimuth_)) angle_ += turn_between(azimuth_, row.detection.z[1], turn_);
+    azimuth_ = row.detection.z[1];
+    now = std::max(number_, static_cast<std::size_t>(std::max(0.0, angle_ / whole_turn)));
   }
-  size_ = scans_.size();
-  const double turn_s = whole_turn * (rows.back().detection.time - first_time) / angle;
-  scan_is_ = options_.scan_s ? fmt::format("{} s, as --scan says", shortest(*options_.scan_s))
-             : turn == 0.0   ? "the rows of one time"
-                             : fmt::format("one turn of the radar, {:.3g} s on average, as the azimuths tell", turn_s);
+  if (now != number_) {
+    for (std::size_t k = number_ + 1; options_.scan_s && k < std::min(now, number_ + most_empty); ++k)
+      scans_.push_back({{.detection = AnyDetection::missed(first_time_ + static_cast<double>(k) * *options_.scan_s)}});
+    number_ = now;
+    whole_ = scans_.size();
+  }
+  const auto sensor = [](const Scan& scan) { return scan.front().sensor; };
+  auto own = std::ranges::find(scans_.begin() + static_cast<std::ptrdiff_t>(whole_), scans_.end(), row.sensor, sensor);
+  if (own == scans_.end()) own = scans_.insert(own, Scan());
+  row.detection = with_sensor_noise(filter_, row.sensor, row.detection, axes_);
+  row.detection.tag = own->size();
+  own->push_back(std::move(row));
 }
 
 /// The positions of each label.
-void ScanReader::take_for_truth(const std::vector<Row>& rows) {
-  scan_is_ = fmt::format("{} s, as --scan says", shortest(*options_.scan_s));
-  for (const Row& row : rows) {
+void ScanReader::take_for_truth() {
+  for (Row row; read(row);) {
     const auto at = position_of(row.detection, axes_);
     if (!at || axes_seen(row.detection, axes_) < axes_) continue;
     const Position from = options_.radar.place();
@@ -118,16 +120,19 @@ void ScanReader::take_for_truth(const std::vector<Row>& rows) {
     last_time_ = std::max(last_time_, row.detection.time);
     truth_[row.track].push_back({row.detection.time, row.line, *at});
   }
-  if (!truth_.empty()) size_ = 1 + static_cast<std::size_t>((last_time_ - first_time_) / *options_.scan_s);
 }
 
 bool ScanReader::next(Scan& scan) {
-  if (number_ == size_) return false;
-  if (options_.radar.sigma)
-    scan = simulated(first_time_ + static_cast<double>(number_) * *options_.scan_s);
-  else
-    scan = std::move(scans_[number_]);
-  ++number_;
+  if (options_.radar.sigma) {
+    const double time = first_time_ + static_cast<double>(number_++) * *options_.scan_s;
+    if (time <= last_time_) scan = simulated(time);
+    return time <= last_time_;
+  }
+  for (Row row; whole_ == 0 && read(row);) take(row);
+  if (scans_.empty()) return false;
+  scan = std::move(scans_.front());
+  scans_.pop_front();
+  whole_ -= whole_ > 0 ? 1U : 0U;
   return true;
 }
 
@@ -165,7 +170,12 @@ std::vector<std::string> ScanReader::notes() const {
   for (const std::string& note : places_.notes()) notes.push_back(note);
   if (unplaced_ > 0)
     notes.push_back(fmt::format("Rows without a latitude and a longitude are not used: {}", unplaced_));
-  notes.push_back("A scan is " + scan_is_);
+  const double turn_s = whole_turn * (last_time_ - first_time_) / angle_;
+  notes.push_back("A scan is " +
+                  (options_.scan_s ? fmt::format("{} s, as --scan says", shortest(*options_.scan_s))
+                   : turn_ == 0.0
+                       ? "the rows of one time"
+                       : fmt::format("one turn of the radar, {:.3g} s on average, as the azimuths tell", turn_s)));
   return notes;
 }
 
