@@ -39,14 +39,20 @@ const MultiTargetRules& checked(const MultiTargetRules& rules) {
 namespace detail {
 
 Tracking::Tracking(const TargetChoice& a_choice, const MultiTargetRules& some)
-    : choice(a_choice), rules(checked(some)), gate(Gate::probability(some.gate_probability)) {}
+    : choice(a_choice), rules(checked(some)), gate(Gate::probability(some.gate_probability)) {
+  if (choice.likelihood == LikelihoodForm::possibility && !(rules.clutter_density.value_or(1.0) < 1.0))
+    throw std::invalid_argument(
+        "with likelihoods as possibilities the clutter density is the possibility that a detection is false: give one "
+        "below 1");
+}
 
 void Tracking::scan(std::span<const AnyDetection> given) {
   // The order in which detections were given has no meaning, so it has no effect: not even on rounding.
   std::vector<std::pair<const AnyDetection*, std::size_t>> order;
   double latest = time;
   for (const AnyDetection& each : given) {
-    if (!std::isfinite(each.time)) throw std::invalid_argument("a detection of a time that is not finite");
+    if (!std::isfinite(each.time) || !std::ranges::all_of(each.z, [](double z) { return std::isfinite(z); }))
+      throw std::invalid_argument("a detection of " + std::to_string(each.time) + " s is not finite");
     latest = std::max(latest, each.time);
     if (each.sensor != AnyDetection::Sensor::none) order.emplace_back(&each, order.size());
   }
@@ -59,7 +65,7 @@ void Tracking::scan(std::span<const AnyDetection> given) {
   for (const auto& [each, place] : order) {
     spots.push_back({chosen_detection(*each, choice.axes), place, {each->tag, {}}});
     if (!check::finite(spots.back().detection.measurement()))
-      throw std::invalid_argument("a detection of " + std::to_string(each->time) + " s is not finite");
+      throw std::invalid_argument("a detection of " + std::to_string(each->time) + " s has no covariance");
   }
   boxes.clear();
   longest = greatest_limit = 0.0;
@@ -121,17 +127,18 @@ std::optional<std::string> Tracking::finding() const {
       if (all > 5.0 * each.unexplained + 20.0 || each.unexplained > 5.0 * all + 20.0)
         return print(
             "a clutter density of %.3g means %.3g false detections a scan, but %.3g stay unexplained; set "
-            "clutter_density=%.2g, or leave it unset to estimate it",
+            "a clutter density of %.2g, or none, so that it is estimated",
             *rules.clutter_density, expected, each.unexplained / each.scans, each.density());
     }
   if (looks >= 50.0 && detected < (rules.detection_probability - 0.2) * looks)
     return print(
-        "confirmed targets were detected in %.0f %% of %.0f scans, but P_D is %.3g; set detection_probability=%.2g",
+        "confirmed targets were detected in %.0f %% of %.0f scans, but P_D is %.3g; set a detection probability of "
+        "%.2g",
         100.0 * detected / looks, looks, rules.detection_probability, detected / looks);
   if (looks > 0.0) return std::nullopt;
   return print(
-      "no track was confirmed in %zu scans of %.3g detections on average; set greatest_speed, now %.3g m/s, near that "
-      "of the targets, and check the standard deviations of the sensor",
+      "no track was confirmed in %zu scans of %.3g detections on average; set the greatest speed, now %.3g m/s, near "
+      "the targets', and check the sensor's standard deviations",
       scans, static_cast<double>(detections) / static_cast<double>(scans), rules.greatest_speed);
 }
 

@@ -20,7 +20,7 @@ Choices any_weights(rc::Random& random, std::size_t rows, std::size_t columns) {
 }
 
 /// The least cost by Boost's minimum cost flow of as many units as there are rows. Its sums overflow integers.
-double cost_by_flow(const Choices& weights) {
+long cost_by_flow(const Choices& weights) {
   using Traits = boost::adjacency_list_traits<boost::vecS, boost::vecS, boost::directedS>;
   using Edge = boost::property<boost::edge_capacity_t, long,
                                boost::property<boost::edge_residual_capacity_t, long,
@@ -45,7 +45,7 @@ double cost_by_flow(const Choices& weights) {
   }
   for (std::size_t column = 0; column < columns; ++column) link(rows + column, to, 1.0);
   successive_shortest_path_nonnegative_weights(graph, from, to);
-  return find_flow_cost(graph) - static_cast<double>(rows);
+  return find_flow_cost(graph) - static_cast<long>(rows);
 }
 
 TEST(AlternatingPaths, CostWhatFlowsCost) {
@@ -54,7 +54,9 @@ TEST(AlternatingPaths, CostWhatFlowsCost) {
     rc::Random random(seed);
     const Choices weights = any_weights(random, 1 + seed % 29, 1 + seed % 31);
     try {
-      EXPECT_EQ((match<Fuzzy, Fuzzy>(weights, {.marginals = false}).log_best), -cost_by_flow(weights)) << seed;
+      EXPECT_EQ((match<Fuzzy, Fuzzy>(weights, {.marginals = false}).log_best),
+                -static_cast<double>(cost_by_flow(weights)))
+          << seed;
       ++compared;
     } catch (const std::domain_error&) {
     }

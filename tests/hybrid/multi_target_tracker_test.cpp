@@ -342,6 +342,22 @@ TEST(MultiTargetTracker, EndsTheYoungerOfTwoTracksOfOneTarget) {
   EXPECT_EQ(tracker.tracks()[0].number, 1U);
 }
 
+/// A far outlier takes no part in the volume by which clutter is estimated.
+TEST(MultiTargetTracker, FindsTheSameTracksBesideAnOutlier) {
+  std::array<MultiTargetTracker, 2> trackers{MultiTargetTracker{choice_of(false)},
+                                             MultiTargetTracker{choice_of(false)}};
+  std::size_t k = 0;
+  for (auto scan : scans_of_three(60, 5)) {
+    trackers[0].scan(scan);
+    if (++k == 20) scan.push_back(at(scan.front().time, 1e9, 0.0));
+    trackers[1].scan(scan);
+  }
+  const auto expected = trackers[0].tracks(), tracks = trackers[1].tracks();
+  ASSERT_EQ(tracks.size(), expected.size());
+  for (std::size_t i = 0; i < tracks.size(); ++i)
+    EXPECT_NEAR(tracks[i].point.mean[0], expected[i].point.mean[0], 0.1) << i;
+}
+
 TEST(MultiTargetTracker, SaysWhatContradictsTheData) {
   const auto found = [](const MultiTargetRules& rules, std::size_t blind, std::string_view words) {
     MultiTargetTracker tracker{choice_of(false), {}, rules};
@@ -350,9 +366,9 @@ TEST(MultiTargetTracker, SaysWhatContradictsTheData) {
       tracker.scan(++k % blind != 0 ? scan : std::vector{AnyDetection::missed(scan.back().time)});
     return says(tracker.finding().value_or(""), {words});
   };
-  EXPECT_TRUE(found({.clutter_density = 1.0}, 100, "stay unexplained; set clutter_density="));
-  EXPECT_TRUE(found({.clutter_density = 1e-12}, 100, "stay unexplained; set clutter_density="));
-  EXPECT_TRUE(found({}, 3, "but P_D is 0.9; set detection_probability=0.6"));
+  EXPECT_TRUE(found({.clutter_density = 1.0}, 100, "stay unexplained; set a clutter density"));
+  EXPECT_TRUE(found({.clutter_density = 1e-12}, 100, "stay unexplained; set a clutter density"));
+  EXPECT_TRUE(found({}, 3, "but P_D is 0.9; set a detection probability of 0.6"));
   EXPECT_TRUE(found({.confirmation = 1.0}, 100, "no track was confirmed in 60 scans of "));
 }
 
@@ -366,9 +382,12 @@ TEST(MultiTargetTracker, RefusesWhatMakesNoSense) {
   EXPECT_INVALID(("less than birth_existence"), (MultiTargetTracker{choice, {}, {.deletion = 0.1}}));
   EXPECT_INVALID(("the greatest possibility"),
                  (MultiTargetTracker{choice, {}, {.detection_possibilities = {{0.5, 0.5}}}}));
+  TargetChoice possible = choice_of(true);
+  possible.likelihood = LikelihoodForm::possibility;
+  EXPECT_INVALID(("the possibility that a detection is false"), (MultiTargetTracker{possible, {true, true}}));
   MultiTargetTracker tracker{choice};
   tracker.scan(std::array{at(0.0, 0.0, 0.0)});
-  EXPECT_INVALID(("a time that is not finite"), tracker.scan(std::array{at(not_a_number, 0.0, 0.0)}));
+  EXPECT_INVALID(("a detection of nan s is not finite"), tracker.scan(std::array{at(not_a_number, 0.0, 0.0)}));
   EXPECT_INVALID(("is not finite"), tracker.scan(std::array{at(1.0, 0.0, not_a_number)}));
   EXPECT_INVALID(("expected 2"),
                  tracker.scan(std::array{AnyDetection::position(1.0, std::array{1.0}, std::array{1.0})}));

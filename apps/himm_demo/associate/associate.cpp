@@ -22,8 +22,8 @@ void associate(const AssociateOptions& options) {
   what.mixed = true;
   RecordingReader recording(what);
   refuse_radar(options.radar, recording);
-  if (recording.has_only_velocities())
-    throw InputError("{}: velocities alone do not tell which detections belong together; give positions",
+  if (!recording.located() && !recording.polar())
+    throw InputError("{}: velocities or bearings alone do not tell where a target is; give positions",
                      recording.file());
   refuse_to_overwrite(options.output, {what.file, options.filters.config}, {"tracks.csv", "detections.csv"});
   ResultFiles files(options.output);
@@ -33,6 +33,7 @@ void associate(const AssociateOptions& options) {
   const int axes = recording.axes();
   MultiTargetTracker tracker = tracker_for(options, filter, axes, options.association.choice);
   AssociateHistory history(axes);
+  std::map<std::size_t, double> written;  // the time of each track's last row
   const auto total = recording.csv().bytes_total();
   Progress progress(recording.file(), total.value_or(1), options.output.quiet || !total);
   for (Scan scan; scans.next(scan);) {
@@ -53,12 +54,14 @@ void associate(const AssociateOptions& options) {
       if (!predicted[i].confirmed) continue;
       const bool seen = updated[i].point.time >= scan.front().detection.time;
       const auto& [number, estimate, existence, _, confirmed, first_time, detected] = (seen ? updated : predicted)[i];
+      if (std::exchange(written[number], estimate.time) == estimate.time) continue;  // in a scan of another sensor
       const EarthPoint point = scans.frame() ? on_earth(estimate, *scans.frame(), axes) : EarthPoint{estimate, {}};
       tracks_file.write(std::to_string(number), filter, point, existence);
     }
     progress.advance(recording.csv().bytes_read() - progress.done());
   }
   progress.finish();
+  if (scans.rows() == 0) throw InputError("{}: there are no rows; give detections", recording.file());
 
   Result result(options.output);
   const std::size_t confirmed = history.confirmed();
@@ -111,7 +114,7 @@ void associate(const AssociateOptions& options) {
 MultiTargetTracker tracker_for(const AssociateOptions& options, const FilterSettings& filter, int axes,
                                const AssociationChoice& association) {
   MultiTargetRules rules = options.rules;
-  if (filter.gate_probability < 1.0) rules.gate_probability = filter.gate_probability;
+  rules.gate_probability = filter.gate_probability;
   return MultiTargetTracker(choice_of(filter, axes), association, rules);
 }
 
@@ -119,6 +122,7 @@ FilterDefaults associate_defaults() {
   FilterDefaults defaults;
   defaults.names = {"imm"};
   defaults.filter.radar_measurement = RadarForm::polar;
+  defaults.filter.gate_probability = MultiTargetRules().gate_probability;
   return defaults;
 }
 

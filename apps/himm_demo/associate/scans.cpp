@@ -84,7 +84,7 @@ void ScanReader::take(Row& row) {
   if (std::isinf(first_time_)) first_time_ = time;
   std::size_t now = number_;
   if (options_.scan_s) {
-    now = static_cast<std::size_t>((time - first_time_) / *options_.scan_s * (1.0 + 1e-12) + 1e-9);
+    now = static_cast<std::size_t>(std::min((time - first_time_) / *options_.scan_s * (1.0 + 1e-12) + 1e-9, 1e15));
   } else if (turn_ == 0.0) {
     now += time > before && !scans_.empty() ? 1U : 0U;
   } else if (row.measured()) {
@@ -110,7 +110,7 @@ void ScanReader::take(Row& row) {
 void ScanReader::take_for_truth() {
   for (Row row; read(row);) {
     const auto at = position_of(row.detection, axes_);
-    if (!at || axes_seen(row.detection, axes_) < axes_) continue;
+    if (!at || row.track.empty() || axes_seen(row.detection, axes_) < axes_) continue;
     const Position from = options_.radar.place();
     const Polar exact = to_polar(Vector<3>(at->data()) - Vector<3>(from.data()));
     greatest_range_ = std::max(greatest_range_, exact.range);

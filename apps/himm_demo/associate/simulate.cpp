@@ -45,11 +45,13 @@ void write_situation(const AssociateOptions& options) {
   std::string command = fmt::format("himm_demo associate {} --labels label", in_shell(options.output.out + "/" + name));
   if (greatest_speed) command += fmt::format(" --greatest-speed {}", *greatest_speed);
   for (const std::string& set : sets) command += " --set " + set;
+  if (const double probability = options.rules.detection_probability; probability != 0.9)
+    command += fmt::format(" --detection-probability {}", probability);
   Result result(options.output);
   result.facts("situation", options.situation, "seed", options.seed, "scans", scans.size(), "detections", detections);
   result.say("Situation {}, seed {}: {} scans, {} detections", options.situation, options.seed, scans.size(),
              detections);
-  result.say("Associate them by {}", command);
+  result.text += fmt::format("Associate them by\n    {}\n", command);
   result.page.title = "Situation " + options.situation;
   result.publish(files);
 }
