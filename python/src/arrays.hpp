@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <stdexcept>
+#include <string>
+
+#include <pybind11/numpy.h>
+
+namespace sigmax::python {
+
+/// Numbers from Python: a contiguous array of doubles, converted only if it is anything else.
+using Array = pybind11::array_t<double, pybind11::array::c_style | pybind11::array::forcecast>;
+
+/// Throws ValueError, which names the argument and both shapes, unless the array has this one. −1 is any length.
+template <class... Lengths>
+void expect_shape(const Array& array, const char* name, Lengths... lengths) {
+  const pybind11::ssize_t expected[] = {static_cast<pybind11::ssize_t>(lengths)...};
+  bool same = array.ndim() == sizeof...(lengths);
+  for (pybind11::ssize_t i = 0; same && i < array.ndim(); ++i)
+    same = expected[i] == -1 || expected[i] == array.shape(i);
+  if (same) return;
+  const auto text = [](const auto* shape, pybind11::ssize_t size) {
+    std::string list;
+    for (pybind11::ssize_t i = 0; i < size; ++i)
+      list += (i == 0 ? "" : ", ") + (shape[i] == -1 ? std::string("any") : std::to_string(shape[i]));
+    return "(" + list + (size == 1 ? ",)" : ")");
+  };
+  throw std::invalid_argument(std::string(name) + ": expected shape " + text(expected, sizeof...(lengths)) +
+                              ", found " + text(array.shape(), array.ndim()));
+}
+
+/// The numbers of an array in row order.
+inline std::span<const double> numbers(const Array& array) {
+  return {array.data(), static_cast<std::size_t>(array.size())};
+}
+
+/// A read-only array over numbers that `owner` keeps, and which keeps `owner`: nothing is copied.
+template <class Number, class... Lengths>
+pybind11::array view(const Number* data, pybind11::handle owner, Lengths... lengths) {
+  pybind11::array array(pybind11::dtype::of<Number>(), {static_cast<pybind11::ssize_t>(lengths)...}, data, owner);
+  array.attr("setflags")(pybind11::arg("write") = false);
+  return array;
+}
+
+/// A new array with a copy of numbers.
+template <class Number, class... Lengths>
+pybind11::array copied(const Number* data, Lengths... lengths) {
+  return pybind11::array(pybind11::dtype::of<Number>(), {static_cast<pybind11::ssize_t>(lengths)...}, data);
+}
+
+}  // namespace sigmax::python
