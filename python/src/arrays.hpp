@@ -4,8 +4,12 @@
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include <pybind11/numpy.h>
+
+#include <sigmax/core/rows.hpp>
 
 namespace sigmax::python {
 
@@ -35,6 +39,24 @@ inline std::span<const double> numbers(const Array& array) {
   return {array.data(), static_cast<std::size_t>(array.size())};
 }
 
+/// Anything that NumPy can make such an array of. Throws TypeError, or what NumPy throws, otherwise.
+inline Array as_array(const pybind11::object& object) {
+  return pybind11::module_::import("numpy").attr("ascontiguousarray")(object, "float64").cast<Array>();
+}
+
+/// Compressed sparse rows: a sparse matrix of SciPy, or anything else that has `tocsr`.
+inline bool is_sparse(const pybind11::object& rows) { return pybind11::hasattr(rows, "tocsr"); }
+
+inline SparseRows sparse_rows(const pybind11::object& matrix) {
+  const pybind11::object rows = matrix.attr("tocsr")();
+  const auto ends = rows.attr("indptr").cast<pybind11::array_t<std::size_t, pybind11::array::forcecast>>();
+  const auto columns = rows.attr("indices").cast<pybind11::array_t<std::uint32_t, pybind11::array::forcecast>>();
+  const auto values = rows.attr("data").cast<Array>();
+  return SparseRows(rows.attr("shape").cast<std::pair<std::size_t, std::size_t>>().second,
+                    std::span(ends.data(), static_cast<std::size_t>(ends.size())).subspan(1),
+                    {columns.data(), columns.data() + columns.size()}, {values.data(), values.data() + values.size()});
+}
+
 /// A read-only array over numbers that `owner` keeps, and which keeps `owner`: nothing is copied.
 template <class Number, class... Lengths>
 pybind11::array view(const Number* data, pybind11::handle owner, Lengths... lengths) {
@@ -48,5 +70,6 @@ template <class Number, class... Lengths>
 pybind11::array copied(const Number* data, Lengths... lengths) {
   return pybind11::array(pybind11::dtype::of<Number>(), {static_cast<pybind11::ssize_t>(lengths)...}, data);
 }
+inline pybind11::array array_of(const std::vector<double>& values) { return copied(values.data(), values.size()); }
 
 }  // namespace sigmax::python

@@ -21,6 +21,8 @@ void refuse_unknown_numpy() {
 
 PYBIND11_MODULE(_sigmax, module) {
   refuse_unknown_numpy();
+  py::options options;
+  options.disable_function_signatures();  // the stubs have them
   module.doc() = "sigma-max inference: probability and possibility as one calculus";
   sigmax::python::bind_core(module);
   sigmax::python::bind_network(module);
