@@ -39,6 +39,12 @@ inline std::span<const double> numbers(const Array& array) {
   return {array.data(), static_cast<std::size_t>(array.size())};
 }
 
+/// The same of a one-dimensional array; ValueError otherwise.
+inline std::span<const double> row_of(const Array& array) {
+  expect_shape(array, "numbers", -1);
+  return numbers(array);
+}
+
 /// Anything that NumPy can make such an array of. Throws TypeError, or what NumPy throws, otherwise.
 inline Array as_array(const pybind11::object& object) {
   return pybind11::module_::import("numpy").attr("ascontiguousarray")(object, "float64").cast<Array>();
@@ -70,6 +76,9 @@ template <class Number, class... Lengths>
 pybind11::array copied(const Number* data, Lengths... lengths) {
   return pybind11::array(pybind11::dtype::of<Number>(), {static_cast<pybind11::ssize_t>(lengths)...}, data);
 }
-inline pybind11::array array_of(const std::vector<double>& values) { return copied(values.data(), values.size()); }
+template <class Number>
+pybind11::array array_of(const std::vector<Number>& values) {
+  return copied(values.data(), values.size());
+}
 
 }  // namespace sigmax::python

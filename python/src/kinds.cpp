@@ -1,8 +1,23 @@
 #include "kinds.hpp"
 
 #include <algorithm>
+#include <cctype>
 
 namespace sigmax::python {
+
+std::string capital(std::string_view kind) {
+  std::string name(kind);
+  name[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(name[0])));
+  return name;
+}
+
+std::string class_name(py::handle object) { return py::str(py::type::handle_of(object).attr("__name__")); }
+
+void refuse(const std::string& verb, std::string_view kind, const std::string& argument, std::string_view other_kind,
+            const std::string& other_argument) {
+  const auto named = [](std::string_view name) { return (name == Ordinal::name ? "an " : "a ") + std::string(name); };
+  throw py::type_error(verb + ": " + named(kind) + " " + argument + " and " + named(other_kind) + " " + other_argument);
+}
 
 std::size_t index_of(const Outcomes& variable, py::handle key) {
   if (py::isinstance<py::str>(key)) return variable.index_of(py::cast<std::string>(key));
@@ -17,8 +32,8 @@ std::size_t index_of(const Outcomes& variable, py::handle key) {
 Family::Family(py::module_& module, py::object base, const std::string& expected)
     : module_(module), base_(std::move(base)) {
   const py::object make = base_.attr("__base__").attr("__new__");
-  const auto choose = [make, base = base_, members = members_, expected](const py::object& type, const py::args& args,
-                                                                         const py::kwargs&) -> py::object {
+  base_.attr("__new__") = py::cpp_function([make, base = base_, members = members_, expected](
+                                               const py::object& type, const py::args& args, const py::kwargs&) {
     if (!type.is(base)) return make(type);
     std::string found;
     py::tuple key;
@@ -29,8 +44,7 @@ Family::Family(py::module_& module, py::object base, const std::string& expected
     }
     throw py::type_error(std::string(py::str(base.attr("__name__"))) + ": expected " + expected + ", found (" + found +
                          ")");
-  };
-  base_.attr("__new__") = py::cpp_function(choose);
+  });
 }
 
 }  // namespace sigmax::python

@@ -1,10 +1,8 @@
 #pragma once
 
-#include <cctype>
 #include <concepts>
 #include <string>
 #include <string_view>
-#include <utility>
 
 #include <pybind11/pybind11.h>
 
@@ -14,7 +12,7 @@ namespace sigmax::python {
 
 namespace py = pybind11;
 
-/// A list of types, over which the bindings of one generic text are made, and among which an argument is looked up.
+/// A list of types: the bindings of one generic text are made for each, and an argument is looked up among them.
 template <class... T>
 struct Types {
   template <class Action>
@@ -23,52 +21,33 @@ struct Types {
   }
 };
 template <class... A, class... B>
-Types<A..., B...> operator+(Types<A...>, Types<B...>) {
+constexpr Types<A..., B...> operator+(Types<A...>, Types<B...>) {
   return {};
 }
 
-/// A class template of one kind, or of each pair of kinds that may meet.
-template <template <class> class T>
-using ForKinds = Types<T<Random>, T<Fuzzy>, T<Ordinal>>;
-template <template <class, class> class T>
-using ForPairs = Types<T<Random, Random>, T<Random, Fuzzy>, T<Fuzzy, Random>, T<Fuzzy, Fuzzy>, T<Ordinal, Ordinal>>;
+using Variables = Types<Variable<Random>, Variable<Fuzzy>, Variable<Ordinal>>;
+using Distributions = Types<Distribution<Random>, Distribution<Fuzzy>, Distribution<Ordinal>>;
+using InducedDistributions =
+    Types<Induced<Distribution<Random>>, Induced<Distribution<Fuzzy>>, Induced<Distribution<Ordinal>>>;
+using Likelihoods = Types<Likelihood<Random>, Likelihood<Fuzzy>, Likelihood<Ordinal>>;
+using Events = Types<Event<Random>, Event<Fuzzy>, Event<Ordinal>>;
 
-template <class Kind>
-using VariableOf = Variable<Kind>;
-template <class Kind>
-using DistributionOf = Distribution<Kind>;
-template <class Kind>
-using InducedOf = Induced<Distribution<Kind>>;
-template <class Kind>
-using LikelihoodOf = Likelihood<Kind>;
-template <class Kind>
-using EventOf = Event<Kind>;
-template <class To, class From>
-using RelationOf = Relation<To, From>;
-template <class To, class From>
-using InducedRelationOf = Induced<Relation<To, From>>;
-
-using Variables = ForKinds<VariableOf>;
-using Distributions = ForKinds<DistributionOf>;
-using InducedDistributions = ForKinds<InducedOf>;
-using Beliefs = Types<Belief<Random>, Belief<Fuzzy>>;
-using Likelihoods = ForKinds<LikelihoodOf>;
-using Events = ForKinds<EventOf>;
-using Relations = ForPairs<RelationOf>;
-using InducedRelations = ForPairs<InducedRelationOf>;
+/// Relations of a random and a fuzzy variable, in any order; and all that there are.
+using MixedRelations =
+    Types<Relation<Random, Random>, Relation<Random, Fuzzy>, Relation<Fuzzy, Random>, Relation<Fuzzy, Fuzzy>>;
+using Relations = decltype(MixedRelations{} + Types<Relation<Ordinal, Ordinal>>{});
+using InducedRelations =
+    Types<Induced<Relation<Random, Random>>, Induced<Relation<Random, Fuzzy>>, Induced<Relation<Fuzzy, Random>>,
+          Induced<Relation<Fuzzy, Fuzzy>>, Induced<Relation<Ordinal, Ordinal>>>;
 
 /// "Random", as the names of Python's classes begin.
-template <class Kind>
-std::string kind_name() {
-  std::string name(Kind::name);
-  name[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(name[0])));
-  return name;
-}
+std::string capital(std::string_view kind);
 
-inline std::string class_name(py::handle object) { return py::str(py::type::handle_of(object).attr("__name__")); }
+/// The name of an object's class.
+std::string class_name(py::handle object);
 
 /// Calls `action` with the object as the one of these types that it is, and returns the result as an object of Python.
-/// Throws TypeError if it is none.
+/// Throws TypeError, which begins with `expected`, if it is none.
 template <class... T, class Action>
 py::object visit(Types<T...>, py::handle object, const std::string& expected, const Action& action) {
   py::object result;
@@ -84,12 +63,9 @@ py::object visit(Types<T...>, py::handle object, const std::string& expected, co
   return result;
 }
 
-/// Two arguments whose kinds do not meet: "update: a random prior and a fuzzy likelihood".
-template <class A, class B>
-[[noreturn]] void mixed(const std::string& verb, const std::string& a, const std::string& b) {
-  const auto named = [](std::string_view kind) { return (kind == "ordinal" ? "an " : "a ") + std::string(kind) + " "; };
-  throw py::type_error(verb + ": " + named(A::name) + a + " and " + named(B::name) + b);
-}
+/// Throws TypeError about arguments whose kinds do not meet: "update: a random prior and a fuzzy likelihood".
+[[noreturn]] void refuse(const std::string& verb, std::string_view kind, const std::string& argument,
+                         std::string_view other_kind, const std::string& other_argument);
 
 /// Computes while other threads of Python run.
 template <class Action>
@@ -101,11 +77,32 @@ auto unlocked(const Action& action) {
 /// Which outcome is meant by a label or an index. Throws IndexError for an index that the variable has not.
 std::size_t index_of(const Outcomes& variable, py::handle key);
 
+/// Adds a property, a method, a constructor, or a function of the signature "name(argument, …)", which Python's help
+/// shows.
+template <class T, class Get>
+void property(py::class_<T>& type, const char* name, const char* doc, const Get& get) {
+  type.def_property_readonly(name, get, doc);
+}
+template <class T, class Call>
+void method(py::class_<T>& type, const char* name, const char* doc, const Call& call) {
+  type.def(name, call, doc);
+}
+template <class T, class Make>
+void constructor(py::class_<T>& type, const char* doc, const Make& make) {
+  type.def(py::init(make), doc);
+}
+template <class... Extra, class Call>
+void function(py::module_& module, const std::string& signature, const std::string& doc, const Call& call,
+              const Extra&... extra) {
+  const std::string text = signature + "\n--\n\n" + doc;
+  module.def(signature.substr(0, signature.find('(')).c_str(), call, text.c_str(), extra...);
+}
+
 /// An abstract class of Python. A call of it makes an object of the class that fits the types of the first arguments:
 /// Distribution(age, …) is a FuzzyDistribution if `age` is fuzzy.
 class Family {
  public:
-  /// `expected` completes the message for arguments that fit no class.
+  /// `expected` completes the message for arguments that fit no class; `Tag` is any of the classes.
   template <class Tag>
   static Family make(py::module_& module, const char* name, const std::string& expected, const char* doc) {
     struct Base {};
@@ -117,7 +114,7 @@ class Family {
     return {module_, name.c_str(), base_};
   }
 
-  /// `T` is what is made of these arguments.
+  /// `T` is made of these arguments.
   template <class T, class... Arguments>
   void accept() const {
     members_[py::make_tuple(py::type::of<Arguments>()...)] = py::type::of<T>();
