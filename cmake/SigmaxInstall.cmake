@@ -1,5 +1,5 @@
 # What `cmake --install` adds to the libraries and programs: the CMake package, files for pkg-config, and Debian packages by CPack.
-# Components: dev (to link the library) and tools (the programs). Nothing installed holds an absolute path.
+# Components: dev (to link the library), tools (the programs) and python (if it is built). Nothing installed holds an absolute path.
 include(CMakePackageConfigHelpers)
 
 sigmax_install(sigmax_all sigmax)
@@ -54,7 +54,11 @@ foreach(part IN LISTS SIGMAX_PARTS)  # SIGMAX_NEEDS is the library of each, for 
 endforeach()
 
 # Debian packages: `cpack -G DEB` in the build directory. What Debian wants in every package is installed in packages only.
-foreach(package libsigmax-dev:dev sigmax-tools:tools)
+set(packages libsigmax-dev:dev sigmax-tools:tools)
+if(SIGMAX_PYTHON)
+  list(APPEND packages python3-sigmax:python)
+endif()
+foreach(package IN LISTS packages)
   string(REPLACE ":" ";" package "${package}")
   list(POP_FRONT package name component)
   set(doc "${CMAKE_INSTALL_DATAROOTDIR}/doc/${name}")
@@ -68,6 +72,9 @@ set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_VENDOR "sigmax")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_COMPONENTS_ALL dev tools)
+if(SIGMAX_PYTHON)
+  list(APPEND CPACK_COMPONENTS_ALL python)
+endif()
 set(CPACK_STRIP_FILES ON)
 set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS
     OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
@@ -96,4 +103,13 @@ The programs of sigmax, a library of sigma-max inference. himm_demo compares
 the interacting multiple-model filter with a random and with a fuzzy mode, on
 simulated targets and on recorded flights. recognition_demo learns to recognise
 targets from sequences of reports, by probability and by possibility.")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-sigmax)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3 (>= 3.11), python3 (<< 3.12), python3-numpy")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "python3-pandas, python3-matplotlib, python3-sklearn")
+set(CPACK_COMPONENT_PYTHON_DESCRIPTION "sigma-max inference: probability and possibility, for Python
+Sums for random variables, maxima for fuzzy ones: relations, networks, a
+sequential classifier, and the interacting multiple-model filter. Arrays of
+NumPy in, arrays out.")
 include(CPack)

@@ -232,13 +232,6 @@ void bind_relations(py::module_& module) {
   });
 }
 
-/// What conditioning gives, as Python's namedtuple Inverse(relation, unreachable).
-template <class I>
-py::object inverse(I result) {
-  const py::object type = py::module_::import("sigmax._sigmax").attr("Inverse");
-  return type(std::move(result.relation), std::move(result.unreachable));
-}
-
 void bind_hybrids(py::module_& module) {
   const Family family = Family::make<HybridDistribution<Fuzzy, Random>>(
       module, "HybridDistribution", "a relation and a distribution of its condition, or two variables",
@@ -265,15 +258,17 @@ void bind_hybrids(py::module_& module) {
     method(type, "total", "⊕ over outer of ⊕ over inner: one, (10), (11).", &H::total);
     method(type, "beta", "⊕ over inner of ⊕ over outer: the β of (14) and (16).", &H::beta);
     method(type, "inner_given_outer", "The conditional of (12), (13), as Inverse(relation, unreachable).",
-           [](const H& self) { return inverse(self.inner_given_outer()); });
+           [](const H& self) { return inverse_of(self.inner_given_outer()); });
     method(type, "outer_given_inner", "The other conditional, (14), as Inverse(relation, unreachable).",
-           [](const H& self) { return inverse(self.outer_given_inner()); });
+           [](const H& self) { return inverse_of(self.outer_given_inner()); });
   });
 }
 
 }  // namespace
 
 void bind_core(py::module_& module) {
+  const py::object namedtuple = py::module_::import("collections").attr("namedtuple");
+  module.attr("Inverse") = namedtuple("Inverse", "relation unreachable", py::arg("module") = "sigmax._sigmax");
   bind_variables(module);
   bind_distributions(module);
   bind_relations(module);

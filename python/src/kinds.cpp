@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cctype>
 
+#include <pybind11/stl.h>
+
 namespace sigmax::python {
 
 std::string capital(std::string_view kind) {
@@ -17,6 +19,10 @@ void refuse(const std::string& verb, std::string_view kind, const std::string& a
             const std::string& other_argument) {
   const auto named = [](std::string_view name) { return (name == Ordinal::name ? "an " : "a ") + std::string(name); };
   throw py::type_error(verb + ": " + named(kind) + " " + argument + " and " + named(other_kind) + " " + other_argument);
+}
+
+py::object inverse(py::object relation, const std::vector<std::size_t>& unreachable) {
+  return py::module_::import("sigmax._sigmax").attr("Inverse")(std::move(relation), unreachable);
 }
 
 std::size_t index_of(const Outcomes& variable, py::handle key) {

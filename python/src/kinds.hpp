@@ -3,6 +3,8 @@
 #include <concepts>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include <pybind11/pybind11.h>
 
@@ -76,6 +78,13 @@ auto unlocked(const Action& action) {
 
 /// Which outcome is meant by a label or an index. Throws IndexError for an index that the variable has not.
 std::size_t index_of(const Outcomes& variable, py::handle key);
+
+/// What reading backwards gives, as Python's namedtuple Inverse(relation, unreachable).
+py::object inverse(py::object relation, const std::vector<std::size_t>& unreachable);
+template <class I>
+py::object inverse_of(I result) {
+  return inverse(py::cast(std::move(result.relation)), result.unreachable);
+}
 
 /// Adds a property, a method, a constructor, or a function of the signature "name(argument, …)", which Python's help
 /// shows.

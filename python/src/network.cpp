@@ -104,6 +104,17 @@ void bind_answer(py::module_& module) {
          [](const Answer& self) { return of_kind(self, [&]<class Kind>() { return self.likelihood<Kind>(); }); });
 }
 
+/// The relation of the kinds that the network's variables have.
+py::object compose_network(const RelationNetwork& network, const std::string& from, const std::string& to) {
+  const ComposedRelation found = unlocked([&] { return compose(network, from, to); });
+  const py::object relation = found.to().visit([&]<class To>(const Variable<To>&) {
+    return found.from().visit([&]<class From>(const Variable<From>&) {
+      return std::visit([](const auto& of_kinds) { return py::cast(of_kinds); }, found.relation<To, From>());
+    });
+  });
+  return inverse(relation, found.unreachable());
+}
+
 void bind_declarations(py::module_& module) {
   using Network = RelationNetwork;
   py::class_<Network> type(module, "RelationNetwork",
@@ -127,6 +138,8 @@ void bind_declarations(py::module_& module) {
     for (const std::size_t parent : self[self.index_of(name)].parents) names.push_back(self[parent].variable.name());
     return names;
   });
+  method(type, "compose", "One variable given another, all others eliminated, as Inverse(relation, unreachable).",
+         &compose_network);
   method(type, "table", "A copy of the table of a variable, a row per outcome of its parents.",
          [](const Network& self, const std::string& name) {
            const Table table = self[self.index_of(name)].table();
@@ -143,17 +156,6 @@ py::tuple explained(const RelationNetwork& network, const py::object& variables,
   for (std::size_t i = 0; i < found.variables.size(); ++i)
     outcomes[py::str(found.variables[i].name())] = found.variables[i].label(found.outcomes[i]);
   return py::make_tuple(outcomes, found.log_value);
-}
-
-/// The relation of the kinds that the network's variables have.
-py::object compose_network(const RelationNetwork& network, const std::string& from, const std::string& to) {
-  const ComposedRelation found = unlocked([&] { return compose(network, from, to); });
-  const py::object relation = found.to().visit([&]<class To>(const Variable<To>&) {
-    return found.from().visit([&]<class From>(const Variable<From>&) {
-      return std::visit([](const auto& of_kinds) { return py::cast(of_kinds); }, found.relation<To, From>());
-    });
-  });
-  return py::module_::import("sigmax._sigmax").attr("Inverse")(relation, found.unreachable());
 }
 
 void bind_queries(py::module_& module) {
@@ -181,7 +183,6 @@ void bind_queries(py::module_& module) {
            "The outcomes favoured most, a dict of names and labels, and the logarithm: of all variables together,\n"
            "or of some, all others eliminated by their own kinds (the marginal MAP).",
            &explained, py::arg("network"), py::arg("variables") = py::none(), none);
-  module.def("compose", &compose_network);
 }
 
 void bind_files(py::module_& module) {

@@ -58,9 +58,7 @@ py::object invert_any(py::handle relation, py::handle prior) {
   return visit(Relations{}, relation, "invert: expected a relation", [&]<class R>(const R& r) {
     return visit(Distributions{}, prior, "invert: expected a distribution", [&]<class P>(const P& p) -> py::object {
       if constexpr (requires { invert(r, p); }) {
-        auto result = unlocked([&] { return invert(r, p); });
-        const py::object type = py::module_::import("sigmax._sigmax").attr("Inverse");
-        return type(std::move(result.relation), std::move(result.unreachable));
+        return inverse_of(unlocked([&] { return invert(r, p); }));
       } else {
         refuse("invert", R::from_kind::name, "condition", P::kind::name, "prior");
       }
@@ -105,8 +103,6 @@ void bind_transforms(py::module_& module) {
 }  // namespace
 
 void bind_verbs(py::module_& module) {
-  const py::object namedtuple = py::module_::import("collections").attr("namedtuple");
-  module.attr("Inverse") = namedtuple("Inverse", "relation unreachable", py::arg("module") = "sigmax._sigmax");
   function(
       module, "compose(left, right, /)",
       "`left` after `right`: the variable between them is eliminated by the ⊕ of its kind, (5)–(7), (15)–(18).\n\n"
