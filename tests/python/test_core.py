@@ -17,47 +17,223 @@ speed = sx.RandomVariable("speed", ["slow", "fast"])
 rank = sx.OrdinalVariable("rank", ["low", "high"])
 mood_given_age = sx.Relation(mood, age, [[0.3, 1.0], [1.0, 0.6], [1.0, 0.2]])
 speed_given_mood = sx.Relation(speed, mood, [[0.9, 0.1], [0.3, 0.7]])
+looks = sx.Distribution(age, [0.5, 1.0, 0.4])
+weather = sx.Distribution(sx.RandomVariable("weather", ["dry", "rain", "snow"]), [0.6, 0.3, 0.1])
 
+variable_of = {"random": sx.RandomVariable, "fuzzy": sx.FuzzyVariable, "ordinal": sx.OrdinalVariable}
 plus = {"random": np.sum, "fuzzy": np.max, "ordinal": np.max}
 times = {"random": np.multiply, "fuzzy": np.multiply, "ordinal": np.minimum}
-kinds = {"random": sx.RandomVariable, "fuzzy": sx.FuzzyVariable, "ordinal": sx.OrdinalVariable}
 mixable = [("random", "random"), ("random", "fuzzy"), ("fuzzy", "random"), ("fuzzy", "fuzzy"), ("ordinal", "ordinal")]
 
 
 def drawn(kind, *shape, seed=1):
     """Distributions of this kind along the last axis."""
     numbers = np.random.default_rng(seed).random(shape)
-    return numbers / (plus[kind](numbers, axis=-1, keepdims=True) if kind != "ordinal" else 1) if kind != "ordinal" else np.where(
-        numbers == numbers.max(axis=-1, keepdims=True), 1.0, numbers)
-
-
-def composed(kind, left, right):
-    """⊕ over the middle of right[f, m] ⊗ left[m, t]."""
-    return plus[kind](times[kind](right[:, :, None], left[None, :, :]), axis=1)
+    return numbers / (numbers.sum if kind == "random" else numbers.max)(axis=-1, keepdims=True)
 
 
 @pytest.mark.parametrize("to, middle", mixable)
-def test_compose_eliminates_by_the_kind_between(to, middle):
-    m, t, f = kinds[middle]("m", 4), kinds[to]("t", 3), kinds[middle]("f", 5)
+def test_compose_eliminates_by_the_kind_of_the_variable_between(to, middle):
+    t, m, f = variable_of[to]("t", 3), variable_of[middle]("m", 4), variable_of[middle]("f", 5)
     left, right = sx.Relation(t, m, drawn(to, 4, 3)), sx.Relation(m, f, drawn(middle, 5, 4, seed=2))
-    result = sx.compose(left, right)
-    assert isinstance(result, sx.Relation if to == middle else sx.InducedRelation)
-    np.testing.assert_allclose(result.table, composed(middle, left.table, right.table), rtol=1e-13)
+    result, induced = sx.compose(left, right), to != middle
+    expected = plus[middle](times[middle](right.table[:, :, None], left.table[None]), axis=1)
+    np.testing.assert_allclose(result.table, expected, rtol=1e-13)
+    assert isinstance(result, sx.InducedRelation if induced else sx.Relation)
+
     prior = sx.Distribution(m, drawn(middle, 4, seed=3))
     marginal = sx.compose(left, prior)
-    np.testing.assert_allclose(marginal.values, composed(middle, left.table, prior.values[None])[0], rtol=1e-13)
-    if to != middle:
+    expected = plus[middle](times[middle](prior.values[:, None], left.table), axis=0)
+    np.testing.assert_allclose(marginal.values, expected, rtol=1e-13)
+    if induced:
         np.testing.assert_allclose(result.betas, plus[to](result.table, axis=1), rtol=1e-13)
-        np.testing.assert_allclose(marginal.normalized().values, marginal.values / marginal.beta, rtol=1e-13)
-    np.testing.assert_allclose(sx.compose(left.likelihood(1), right).values if False else
-                               sx.compose(sx.Likelihood(t, [1, 0, 2 if to != "ordinal" else 1]), left).values,
-                               composed(to, left.table.T * 0 + np.array([[1], [0], [2 if to != "ordinal" else 1]]), left.table)[:, 0],
-                               rtol=1e-13)
+        np.testing.assert_allclose(marginal.normalized().values, expected / plus[to](expected), rtol=1e-13)
+
+    evidence = sx.Likelihood(t, [1.0, 0.0, 0.5])
+    carried = plus[to](times[to](evidence.values, left.table), axis=1)
+    np.testing.assert_allclose(sx.compose(evidence, left).values, carried, rtol=1e-13)
 
 
-def test_young_and_fast():
-    fast_given_age = sx.compose(speed_given_mood, mood_given_age)
-    assert fast_given_age.normalized().given("young")["fast"] == pytest.approx(0.7)
-    who = sx.update(sx.uninformative(age), fast_given_age.likelihood("fast"))
-    np.testing.assert_allclose(who.values, np.array([0.7, 0.42, 0.14]) / 0.7)
-    assert sx.most_likely(who) == "young"
+@pytest.mark.parametrize("to, middle", mixable[:4])
+def test_update_and_invert_divide_by_the_kind_of_the_prior(to, middle):
+    t, m = variable_of[to]("t", 3), variable_of[middle]("m", 4)
+    relation, prior = sx.Relation(t, m, drawn(to, 4, 3)), sx.Distribution(m, drawn(middle, 4, seed=3))
+    joint = (relation.table * prior.values[:, None]).T
+    inverse = sx.invert(relation, prior)
+    np.testing.assert_allclose(inverse.relation.table, joint / plus[middle](joint, axis=1, keepdims=True), rtol=1e-13)
+    assert inverse.unreachable == []
+    np.testing.assert_allclose(sx.update(prior, relation.likelihood(2)).values, inverse.relation.given(2).values, rtol=1e-13)
+
+
+def test_logarithms_of_likelihoods_do_not_underflow():
+    evidence = sx.Likelihood(age, logs=[-5000.0, -5001.0, -np.inf])
+    np.testing.assert_allclose(sx.update(sx.uninformative(age), evidence).values, [1, np.exp(-1), 0])
+    np.testing.assert_array_equal(evidence.logs, [-5000, -5001, -np.inf])
+
+
+def test_a_hybrid_distribution_is_one_in_one_order_only():
+    joint = sx.HybridDistribution(speed_given_mood, sx.uninformative(mood))  # (12)
+    np.testing.assert_array_equal(joint.table, [[0.9, 0.1], [0.3, 0.7]])
+    assert (joint.total(), joint.beta()) == (1.0, pytest.approx(0.9 + 0.7))
+    np.testing.assert_allclose(joint.inner_marginal().values, [0.9, 0.7])
+    back = joint.outer_given_inner().relation
+    np.testing.assert_allclose(back.table, [[1, 1 / 3], [1 / 7, 1]])
+    np.testing.assert_allclose(sx.HybridDistribution(back, joint.inner_marginal()).table, joint.table)  # (14)
+    assert sx.HybridDistribution(mood, speed, joint.table).outer_marginal() == sx.uninformative(mood)
+
+
+def test_transforms():
+    np.testing.assert_allclose(sx.to_possibility(weather, sx.RatioScale()).values, [1, 0.5, 1 / 6])
+    np.testing.assert_allclose(sx.to_possibility(weather, sx.DuboisPrade()).values, [1, 0.4, 0.1])
+    possible = sx.to_possibility(weather, sx.DuboisPradeSandri())
+    np.testing.assert_allclose(possible.values, [1, 0.3 + 0.3 + 0.1, 0.3])
+    np.testing.assert_allclose(sx.to_probability(possible, sx.DuboisPradeSandri()).values, weather.values)
+    fuzzy = sx.with_fuzzy_condition(sx.to_possibility(sx.Relation(speed, speed, [[0.8, 0.2], [0.1, 0.9]]), sx.RatioScale()))
+    np.testing.assert_allclose(fuzzy.table, [[1, 0.25], [1 / 9, 1]])
+    assert type(fuzzy) is sx.FuzzyGivenFuzzy and fuzzy.to == sx.as_fuzzy(speed) != speed
+
+
+def test_measures_of_every_event():
+    for chosen in itertools.product([False, True], repeat=3):
+        members = np.flatnonzero(chosen)
+        event = sx.Event(age, members)
+        possible = max(looks.values[members], default=0.0)
+        assert sx.possibility(looks, event) == possible == pytest.approx(1 - sx.necessity(looks, ~event))
+        of_weather = sx.Event(weather.variable, members)
+        assert sx.probability(weather, of_weather) == pytest.approx(weather.values[members].sum())
+    young, middle = sx.Event(age, ["young"]), sx.Event(age, ["middle"])
+    assert "young" in (young | middle) and "old" not in (young | middle) and (young & middle) == sx.Event(age, [])
+    np.testing.assert_allclose(sx.given(looks, ~middle).values, [1, 0, 0.8])
+    assert sx.compatibility([1.0, 0.5], [1.0, 0.0], [1.0, 2.0]) == 0.5
+
+
+def patterns_of(none, weights):
+    """Every event with its weight, by its pattern: the rows that are detected and the columns that are used."""
+    patterns = {}
+    for event in itertools.product(range(-1, weights.shape[1]), repeat=len(none)):
+        used = [c for c in event if c >= 0]
+        if len(set(used)) == len(used):
+            weight = np.prod([none[r] if c < 0 else weights[r, c] for r, c in enumerate(event)])
+            patterns.setdefault((tuple(c >= 0 for c in event), frozenset(used)), {})[event] = weight
+    return list(patterns.values())
+
+
+@pytest.mark.parametrize("pattern, permutation", itertools.product(["random", "fuzzy"], repeat=2))
+def test_matching_eliminates_the_permutation_then_the_pattern(pattern, permutation):
+    none, weights = np.array([0.2, 0.5, 0.1]), np.array([[2.0, 0.7, 0.0], [1.5, 3.0, 0.4], [0.3, 0.6, 1.1]])
+
+    patterns = patterns_of(none, weights)
+    best, weight = max((pair for events in patterns for pair in events.items()), key=lambda pair: pair[1])
+    if (pattern, permutation) == ("random", "fuzzy"):  # JPDA*: of each pattern only the best event counts
+        patterns = [dict([max(events.items(), key=lambda pair: pair[1])]) for events in patterns]
+
+    def total(chosen):
+        of_patterns = [[w for event, w in events.items() if chosen(event)] for events in patterns]
+        return plus[pattern]([plus[permutation](of_one) for of_one in of_patterns if of_one])
+
+    with np.errstate(divide="ignore"):
+        matching = sx.match(np.log(none), np.log(weights), pattern, permutation)
+    marginals = [[total(lambda event: event[r] == c) for c in range(-1, 3)] for r in range(3)]
+    marginals /= plus[pattern](marginals, axis=1, keepdims=True)
+    data, indices, ends = matching.log_marginals
+    np.testing.assert_array_equal(ends, [0, 3, 6, 9])
+    np.testing.assert_array_equal(indices, [0, 1, 2] * 3)
+    np.testing.assert_allclose(np.exp(data).reshape(3, 3), marginals[:, 1:], rtol=1e-12, atol=1e-300)
+    np.testing.assert_allclose(np.exp(matching.log_none), marginals[:, 0], rtol=1e-12)
+    assert matching.log_total == pytest.approx(np.log(total(lambda event: True)))
+    assert (tuple(matching.best), matching.log_best) == (best, pytest.approx(np.log(weight))) and matching.exact
+
+
+def test_choices_are_arrays_lists_or_sparse():
+    sparse = pytest.importorskip("scipy.sparse")
+    dense = sx.match([-1.0, -1.0], [[0.5, -np.inf], [1.0, 2.0]], "random", "random")
+    lists = sx.match([-1.0, -1.0], [{0: 0.5}, {0: 1.0, 1: 2.0}], "random", "random")
+    csr = sx.match([-1.0, -1.0], sparse.csr_matrix([[0.5, 0], [1.0, 2.0]]), "random", "random")
+    assert dense.log_total == lists.log_total == csr.log_total
+    assert sparse.csr_matrix(csr.log_marginals).shape == (2, 2)
+
+
+def test_sparse_relations_stay_sparse():
+    sparse = pytest.importorskip("scipy.sparse")
+    cell = sx.RandomVariable("cell", 1000)
+    shift = sx.Relation(cell, cell, sparse.eye(1000, k=1) + sparse.csr_matrix(([1.0], ([999], [0])), shape=(1000, 1000)))
+    twice = sx.compose(shift, shift)
+    assert twice["998", "0"] == twice[0, 2] == 1.0
+    with pytest.raises(ValueError, match="'cell' given 'cell'"):
+        twice.table
+    np.testing.assert_array_equal(twice.dense().table, np.roll(np.eye(1000), 2, axis=1))
+
+
+def test_values_are_views_that_outlive_their_owner():
+    relation = sx.Relation(speed, sx.RandomVariable("many", 1000), np.tile([0.25, 0.75], (1000, 1)))
+    view, address = relation.table, relation.table.__array_interface__["data"]
+    assert view.__array_interface__["data"] == address and not view.flags.writeable and not view.flags.owndata
+    values, rows = sx.Distribution(sx.RandomVariable("big", 5000), np.full(5000, 1 / 5000)).values, relation.table[7]
+    del relation
+    gc.collect()
+    junk = [np.zeros(5000) for _ in range(20)]
+    assert len(junk) == 20 and (values == 1 / 5000).all() and rows.tolist() == [0.25, 0.75]
+
+
+def test_threads_compose_at_once():
+    m = sx.RandomVariable("m", 200)
+    relation = sx.Relation(m, m, drawn("random", 200, 200))
+    expected, found = sx.compose(relation, relation), [None] * 8
+
+    def work(i):
+        for _ in range(5):
+            found[i] = sx.compose(relation, relation)
+
+    threads = [threading.Thread(target=work, args=(i,)) for i in range(8)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert all(one == expected for one in found)
+
+
+@pytest.mark.parametrize("value", [age, sx.RandomVariable("n", 5), looks, mood_given_age, looks.variable], ids=repr)
+def test_values_are_pickled_copied_and_compared(value):
+    assert pickle.loads(pickle.dumps(value)) == copy.deepcopy(value) == value
+
+
+def test_rows_are_sequences():
+    assert len(looks) == 3 and list(looks) == [0.5, 1.0, 0.4] and looks["old"] == looks[2] == 0.4
+    np.testing.assert_array_equal(np.asarray(looks), looks.values)
+    assert repr(looks) == "<FuzzyDistribution age [0.5, 1.0, 0.4]>"
+    assert (age.kind, age.size, age.labels, age.index_of("old")) == ("fuzzy", 3, ["young", "middle", "old"], 2)
+    np.testing.assert_allclose(sx.normalized(mood, age, [[3, 1], [2, 2], [0, 7]]).table, [[1, 1 / 3], [1, 1], [0, 1]])
+    np.testing.assert_allclose(sx.normalized(weather.variable, [6, 3, 1]).values, weather.values)
+    assert sx.most_likely(weather) == "dry"
+
+
+refusals = [
+    (TypeError, "update: a random prior and a fuzzy likelihood", lambda: sx.update(weather, mood_given_age.likelihood(0))),
+    (TypeError, "update: a fuzzy prior and an ordinal likelihood", lambda: sx.update(looks, sx.Likelihood(rank, [1, 0]))),
+    (TypeError, "compose: a fuzzy condition .* and a random variable", lambda: sx.compose(mood_given_age, speed_given_mood)),
+    (TypeError, "invert: a fuzzy condition and a random prior", lambda: sx.invert(mood_given_age, weather)),
+    (TypeError, "necessity: a fuzzy distribution and a random event", lambda: sx.necessity(looks, sx.Event(speed, [0]))),
+    (TypeError, "probability: not defined for .* fuzzy", lambda: sx.probability(looks, sx.Event(age, [0]))),
+    (TypeError, r"Relation: .*found \(FuzzyVariable, OrdinalVariable\)", lambda: sx.Relation(mood, rank, [[1, 1]])),
+    (TypeError, "FuzzyVariable(.|\n)*RandomVariable", lambda: sx.FuzzyDistribution(speed, [1, 1])),
+    (TypeError, "to_possibility: .*, found FuzzyDistribution", lambda: sx.to_possibility(looks, sx.RatioScale())),
+    (TypeError, "update: expected a distribution, found int", lambda: sx.update(3, looks)),
+    (TypeError, "label or an index, found float", lambda: looks[1.5]),
+    (ValueError, "'mood' given age = 'old' is 0.9, not 1", lambda: sx.Relation(mood, age, [[0.3, 1], [1, 0.6], [0.9, 0.2]])),
+    (ValueError, "'age' at outcome 'middle' is nan", lambda: sx.Distribution(age, [1, np.nan, 0])),
+    (ValueError, "needs 3 rows, but 2", lambda: sx.Relation(mood, age, [[0.3, 1], [1, 0.6]])),
+    (ValueError, r"expected shape \(any, any\), found \(2,\)", lambda: sx.Relation(mood, age, [0.3, 1])),
+    (ValueError, r"expected shape \(any,\), found \(1, 3\)", lambda: sx.Distribution(age, [[1, 1, 1]])),
+    (ValueError, "no outcome 'ancient'; its outcomes are young", lambda: looks["ancient"]),
+    (ValueError, "expected variable 'mood', found 'age'", lambda: sx.compose(speed_given_mood, sx.Relation(age, mood, [[1] * 3] * 2))),
+    (ValueError, "excludes every outcome|no outcome", lambda: sx.update(sx.Distribution(age, [1, 0, 0]), sx.Likelihood(age, [0, 1, 1]))),
+    (ValueError, "expected 'random' or 'fuzzy', found 'ordinal'", lambda: sx.match([0.0], [[0.0]], "ordinal", "random")),
+    (IndexError, "'age' has no outcome 3", lambda: looks[3]),
+    (IndexError, "'age' has no outcome -1", lambda: mood_given_age[-1, 0]),
+]
+
+
+@pytest.mark.parametrize("error, words, call", refusals, ids=[words for _, words, _ in refusals])
+def test_refusals(error, words, call):
+    with pytest.raises(error, match=words):
+        call()
