@@ -88,7 +88,6 @@ void bind_row(py::class_<T>& type) {
     const py::list shown = self.attr("values").attr("tolist")();
     return py::str("<{} {} {}>").format(class_name(self), self.attr("variable").attr("name"), shown);
   });
-  made_of(type, "variable", "values");
 }
 
 template <class T>
@@ -117,6 +116,7 @@ void bind_distributions(py::module_& module) {
     constructor(type, "Values (n,), stored unchanged; ValueError, with the value, unless normalised to 1e-9.",
                 [](const V& variable, const Array& values) { return D(variable, row_of(values)); });
     type.def(py::self == py::self);
+    made_of(type, "variable", "values");
 
     using I = Induced<D>;
     py::class_<I> unnormalised = induced.add<I>("Induced" + kind + "Distribution");
