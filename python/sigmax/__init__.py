@@ -1,3 +1,5 @@
 """Sigma-max inference: probability and possibility as one calculus, arrays in and arrays out."""
 
 from ._sigmax import *
+from . import models, sensors
+from .tracks import Track, Tuned, associate, track, tune
