@@ -1,6 +1,7 @@
 # The compiled module. stubtest holds it to this file: a section per room, in the order of the rooms.
 import os
 from collections.abc import Iterable, Mapping, Sequence
+from types import SimpleNamespace
 from typing import Any, Generic, Literal, NamedTuple, Protocol, TypeVar, Union, overload
 
 import numpy as np
@@ -282,24 +283,8 @@ class Detections:
     @property
     def times(self) -> _Array: ...
 
-class Gospa(NamedTuple):
-    value: Any
-    localisation: Any
-    missed: Any
-    false_targets: Any
-    estimate_of: Any
-
-class TrajectoryGospa(NamedTuple):
-    value: Any
-    localisation: Any
-    missed: Any
-    false_targets: Any
-    switching: Any
-    switches: Any
-    exact: Any
-
-def gospa(truth: npt.ArrayLike, estimates: npt.ArrayLike, cutoff: float = 10.0, order: float = 2.0) -> Gospa: ...
-def trajectory_gospa(truth: Sequence[npt.ArrayLike], tracks: Sequence[npt.ArrayLike], cutoff: float = 10.0, order: float = 2.0, switch_penalty: float = 1.0) -> TrajectoryGospa: ...
+def gospa(truth: npt.ArrayLike, estimates: npt.ArrayLike, cutoff: float = 10.0, order: float = 2.0) -> SimpleNamespace: ...
+def trajectory_gospa(truth: Sequence[npt.ArrayLike], tracks: Sequence[npt.ArrayLike], cutoff: float = 10.0, order: float = 2.0, switch_penalty: float = 1.0) -> SimpleNamespace: ...
 
 # ----------------------------------------------------------------------------------------------------------- hybrid
 
@@ -362,30 +347,10 @@ class IMMBank:
 
 class HIMMBank(IMMBank): ...
 
-class TrackedTarget:
-    @property
-    def number(self) -> int: ...
-    @property
-    def existence(self) -> float: ...
-    @property
-    def necessity(self) -> float: ...
-    @property
-    def confirmed(self) -> bool: ...
-    @property
-    def detected(self) -> int: ...
-    @property
-    def time(self) -> float: ...
-    @property
-    def x(self) -> _Array: ...
-    @property
-    def P(self) -> _Array: ...
-    @property
-    def weights(self) -> _Array: ...
-
 class MultiTargetTracker:
     def __init__(self, models: Sequence[Model], filter: str = "himm", pattern: _Ratio = "random", permutation: _Ratio = "random", transition: _Transition[Any] = None, **rules: Any) -> None: ...
     def scan(self, detections: Detections, /) -> _Integers: ...
-    def tracks(self, time: float | None = None) -> list[TrackedTarget]: ...
+    def tracks(self, time: float | None = None) -> list[SimpleNamespace]: ...
     @property
     def mode(self) -> Variable: ...
     @property

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
+#include <limits>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -79,6 +81,20 @@ pybind11::array copied(const Number* data, Lengths... lengths) {
 template <class Number>
 pybind11::array array_of(const std::vector<Number>& values) {
   return copied(values.data(), values.size());
+}
+
+/// A new array of NaN.
+template <class... Lengths>
+Array unknown(Lengths... lengths) {
+  Array array({static_cast<pybind11::ssize_t>(lengths)...});
+  std::fill_n(array.mutable_data(), array.size(), std::numeric_limits<double>::quiet_NaN());
+  return array;
+}
+
+/// A types.SimpleNamespace of these fields.
+template <class... Field>
+pybind11::object record(Field&&... fields) {
+  return pybind11::module_::import("types").attr("SimpleNamespace")(std::forward<Field>(fields)...);
 }
 
 }  // namespace sigmax::python

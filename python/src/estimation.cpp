@@ -273,28 +273,21 @@ PointSet points_of(const Array& array, bool gaps) {
 }
 
 void bind_metrics(py::module_& module) {
-  const auto fields = [&](const char* name, const char* names) {
-    const py::object namedtuple = py::module_::import("collections").attr("namedtuple");
-    const py::object made = namedtuple(name, names, py::arg("module") = "sigmax._sigmax");
-    module.attr(name) = made;
-    return made;
-  };
-  const py::object of_points = fields("Gospa", "value localisation missed false_targets estimate_of");
-  const py::object of_tracks =
-      fields("TrajectoryGospa", "value localisation missed false_targets switching switches exact");
   function(
       module, "gospa(truth, estimates, cutoff=10.0, order=2.0)",
       "GOSPA with α = 2 of points (N, d) against (M, d), in m, and its parts, which are powers of `order`.",
-      [of_points](const Array& truth, const Array& estimates, double cutoff, double order) {
+      [](const Array& truth, const Array& estimates, double cutoff, double order) {
         const Gospa g = gospa(points_of(truth, false), points_of(estimates, false), {cutoff, order});
-        return of_points(g.value, g.localisation, g.missed, g.false_targets, g.estimate_of);
+        return record(py::arg("value") = g.value, py::arg("localisation") = g.localisation,
+                      py::arg("missed") = g.missed, py::arg("false_targets") = g.false_targets,
+                      py::arg("estimate_of") = g.estimate_of);
       },
       py::arg("truth"), py::arg("estimates"), py::arg("cutoff") = 10.0, py::arg("order") = 2.0);
   function(
       module, "trajectory_gospa(truth, tracks, cutoff=10.0, order=2.0, switch_penalty=1.0)",
       "Trajectory GOSPA of lists of positions (K, d) at the same K scans, a row of NaN where there is none.",
-      [of_tracks](const std::vector<Array>& truth, const std::vector<Array>& tracks, double cutoff, double order,
-                  double penalty) {
+      [](const std::vector<Array>& truth, const std::vector<Array>& tracks, double cutoff, double order,
+         double penalty) {
         const auto all = [](const std::vector<Array>& arrays) {
           std::vector<Trajectory> result;
           for (const Array& array : arrays) result.push_back({0, points_of(array, true)});
@@ -302,7 +295,9 @@ void bind_metrics(py::module_& module) {
         };
         const auto a = all(truth), b = all(tracks);
         const TrajectoryGospa g = unlocked([&] { return trajectory_gospa(a, b, {cutoff, order, penalty}); });
-        return of_tracks(g.value, g.localisation, g.missed, g.false_targets, g.switching, g.switches, g.exact);
+        return record(py::arg("value") = g.value, py::arg("localisation") = g.localisation,
+                      py::arg("missed") = g.missed, py::arg("false_targets") = g.false_targets,
+                      py::arg("switching") = g.switching, py::arg("switches") = g.switches, py::arg("exact") = g.exact);
       },
       py::arg("truth"), py::arg("tracks"), py::arg("cutoff") = 10.0, py::arg("order") = 2.0,
       py::arg("switch_penalty") = 1.0);

@@ -74,13 +74,13 @@ void believe(MultipleModelFilter<Kind>& filter, const py::object& mode) {
 
 /// Mean (n,) and covariance (n, n), written by write(view).
 template <class Write>
-py::tuple estimate(int n, const Write& write) {
-  const Array x(n), P({n, n});
-  write(detail::View{const_cast<double*>(x.data()), const_cast<double*>(P.data()), n});
-  return py::make_tuple(x, P);
+std::pair<Array, Array> estimate(int n, const Write& write) {
+  std::pair<Array, Array> result{Array(n), Array({n, n})};
+  write(detail::View{result.first.mutable_data(), result.second.mutable_data(), n});
+  return result;
 }
 template <class Kind>
-py::tuple estimate(const MultipleModelFilter<Kind>& filter) {
+std::pair<Array, Array> estimate(const MultipleModelFilter<Kind>& filter) {
   return estimate(filter.component_count(), [&](detail::View result) { filter.output(result); });
 }
 
@@ -121,20 +121,18 @@ void bind_kind(py::module_& module) {
   const std::string kind = capital(Kind::name);
   py::class_<Filter> type(module, (kind + "ModeFilter").c_str(), "A multiple-model filter with a mode of this kind.");
   type.def(
-      "step", [](Filter& self, double dt) { self.step(dt); }, py::arg("dt"));
-  type.def(
       "step",
-      [](Filter& self, double dt, const Array& z, const Array& R, const Sensor* sensor, const Gate& gate) {
+      [](Filter& self, double dt, const Array& z, const Array& R, const py::object& sensor, const Gate& gate) {
         expect_shape(z, "z", -1);
-        const py::ssize_t m = z.size();
-        require_quantities(sensor || m < 1 || m > 3 ? m : 1);
-        if (!sensor && (m < 1 || m > 3))
-          throw std::invalid_argument("z: a position has 1 to 3 numbers, found " + std::to_string(m) +
-                                      "; name the sensor");
+        const auto m = static_cast<int>(z.size());
+        if (m < 1 || m > (sensor.is_none() ? 3 : max_measurement_size))
+          throw std::invalid_argument("z has " + std::to_string(m) +
+                                      " numbers; expected 1 to 3 of a position, or 1 to 6 "
+                                      "of a sensor");
         double covariance[max_measurement_size * max_measurement_size];
         write_covariance(R, 0, 1, m, covariance);
-        const AnySensor& own = sensor ? sensor->any : detail::position_sensor(static_cast<int>(m));
-        const Seen seen{{z.data(), covariance, static_cast<int>(m)}, detail::sensor_of_models(own)};
+        const AnySensor& own = sensor.is_none() ? detail::position_sensor(m) : sensor_of(sensor).any;
+        const Seen seen{{z.data(), covariance, m}, detail::sensor_of_models(own)};
         self.step(dt, &seen, gate);
       },
       "One cycle, dt seconds after the last, without a detection or with z (m,) and its R, (m, m) or variances "
@@ -142,14 +140,14 @@ void bind_kind(py::module_& module) {
       "Without a sensor z is a position. Beyond the gate it counts as missed.",
       py::arg("dt"), py::arg("z"), py::arg("R"), py::arg("sensor") = py::none(), py::arg("gate") = Gate());
   type.def(
+      "step", [](Filter& self, double dt) { self.step(dt); }, py::arg("dt"));
+  type.def(
       "restart",
       [](Filter& self, const Array& x, const Array& P) { self.restart(start_of(x, P, self.component_count())); },
       "Starts again from x (n,) and P (n, n); nothing is known of the mode.", py::arg("x"), py::arg("P"));
   property(type, "components", "Names of the n states.", [](const Filter& self) { return self.components(); });
-  property(type, "x", "Mean of the output, (n,): (64)–(68).",
-           [](const Filter& self) { return estimate(self)[0].template cast<py::object>(); });
-  property(type, "P", "Covariance of the output, (n, n).",
-           [](const Filter& self) { return estimate(self)[1].template cast<py::object>(); });
+  property(type, "x", "Mean of the output, (n,): (64)–(68).", [](const Filter& self) { return estimate(self).first; });
+  property(type, "P", "Covariance of the output, (n, n).", [](const Filter& self) { return estimate(self).second; });
   property(type, "estimates", "(x, P) of each model in its own components.", [](const Filter& self) {
     py::list all;
     for (std::size_t j = 0; j < self.modes(); ++j) {
@@ -173,20 +171,19 @@ template <class Kind>
 struct Bank {
   explicit Bank(const Made<Kind>& made) : tracks(made.models, made.transition(), interaction_of<Kind>(made.choice)) {}
 
-  py::tuple series() const {
-    const int n = tracks.filter().component_count();
-    const auto rows = static_cast<py::ssize_t>(count), modes = static_cast<py::ssize_t>(tracks.filter().modes());
-    Array x({rows, py::ssize_t{n}}), P({rows, py::ssize_t{n}, py::ssize_t{n}}), weights({rows, modes});
-    for (Array* array : {&x, &P, &weights})
-      std::fill_n(array->mutable_data(), array->size(), std::numeric_limits<double>::quiet_NaN());
+  /// (x, P, weights).
+  std::array<Array, 3> series() const {
+    const auto& filter = tracks.filter();
+    const int n = filter.component_count();
+    std::array<Array, 3> all{unknown(count, n), unknown(count, n, n), unknown(count, filter.modes())};
+    auto& [x, P, weights] = all;
     for (std::size_t t = 0; t < count; ++t) {
       if (!tracks.lives(t)) continue;
       const auto state = tracks.state(t);
-      const auto row = static_cast<py::ssize_t>(t);
-      tracks.filter().output(state, {x.mutable_data(row, 0), P.mutable_data(row, 0, 0), n});
-      for (py::ssize_t j = 0; j < modes; ++j) *weights.mutable_data(row, j) = state.belief[static_cast<std::size_t>(j)];
+      filter.output(state, {x.mutable_data(t, 0), P.mutable_data(t, 0, 0), n});
+      for (std::size_t j = 0; j < filter.modes(); ++j) *weights.mutable_data(t, j) = state.belief[j];
     }
-    return py::make_tuple(x, P, weights);
+    return all;
   }
 
   TrackBank<Kind, double> tracks;
@@ -215,26 +212,23 @@ void bind_bank(py::module_& module, const char* name, const std::string& filter)
       "step",
       [](B& self, double dt, const py::object& positions, const Array& R, std::size_t threads) {
         const Array z = unmasked(positions);
-        expect_shape(z, "z", self.count, -1);
-        const py::ssize_t rows = z.shape(0), m = z.shape(1);
-        const int axes = self.tracks.filter().fast_path().axes();
-        expect_shape(z, "z", self.count, axes);
+        const int m = self.tracks.filter().fast_path().axes();
+        expect_shape(z, "z", self.count, m);
         auto scan = self.tracks.scan();
         double covariance[max_measurement_size * max_measurement_size];
-        for (py::ssize_t t = 0; t < rows; ++t) {
+        for (py::ssize_t t = 0; t < z.shape(0); ++t) {
           const double* const row = z.data() + t * m;
           if (std::all_of(row, row + m, [](double number) { return std::isnan(number); })) continue;
-          write_covariance(R, t, rows, m, covariance);
-          scan.set(static_cast<std::size_t>(t), {row, covariance, axes});
+          write_covariance(R, t, z.shape(0), m, covariance);
+          scan.set(static_cast<std::size_t>(t), {row, covariance, m});
         }
         unlocked([&] { self.tracks.run(dt, {&scan, 1}, threads); });
       },
       "Steps all tracks by z (T, m), a row of NaN where one was missed, and R (m, m), (m,) or (T, m, m).",
       py::arg("dt"), py::arg("z"), py::arg("R"), py::arg("threads") = 1);
-  property(type, "x", "Means (T, n), NaN where no track is.",
-           [](const B& self) { return py::object(self.series()[0]); });
-  property(type, "P", "Covariances (T, n, n).", [](const B& self) { return py::object(self.series()[1]); });
-  property(type, "weights", "Of the modes, (T, modes).", [](const B& self) { return py::object(self.series()[2]); });
+  property(type, "x", "Means (T, n), NaN where no track is.", [](const B& self) { return self.series()[0]; });
+  property(type, "P", "Covariances (T, n, n).", [](const B& self) { return self.series()[1]; });
+  property(type, "weights", "Of the modes, (T, modes).", [](const B& self) { return self.series()[2]; });
 }
 
 }  // namespace

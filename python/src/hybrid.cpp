@@ -24,17 +24,9 @@
 namespace sigmax::python {
 namespace {
 
-struct KnownFilter {
-  const char* name;
-  bool fuzzy;
-  Scheme scheme;
-};
-constexpr KnownFilter known_filters[] = {
-    {"imm", false, Scheme::interacting},           {"himm", true, Scheme::interacting},
-    {"gpb1", false, Scheme::common_start},         {"himm_global", true, Scheme::common_start},
-    {"gpb2", false, Scheme::second_order},         {"viterbi", true, Scheme::second_order},
-    {"static_random", false, Scheme::independent}, {"static_fuzzy", true, Scheme::independent},
-    {"imm_histories", false, Scheme::histories},   {"himm_histories", true, Scheme::histories}};
+/// Filters as programs call them, in the order of Scheme: of a random mode, then of a fuzzy one.
+const std::vector<std::string> filters = {"imm",  "gpb1",        "gpb2",    "static_random", "imm_histories",
+                                          "himm", "himm_global", "viterbi", "static_fuzzy",  "himm_histories"};
 
 /// What sets members of plain data by keywords.
 template <class Data>
@@ -127,77 +119,51 @@ bool is_table_of(const Array& rows) {
   return true;
 }
 
-/// The transition of a mode of this kind. Throws TypeError for one of another kind.
+/// The transition of a mode of this kind, by default that of himm_demo. Throws TypeError for one of another kind.
 template <class Kind>
-Relation<Kind, Kind> transition_of(const std::string& filter, const std::vector<std::string>& models,
-                                   const py::object& given) {
-  using Other = std::conditional_t<std::is_same_v<Kind, Fuzzy>, Random, Fuzzy>;
-  if (py::isinstance<Relation<Kind, Kind>>(given)) return given.cast<Relation<Kind, Kind>>();
-  const Variable<Kind> mode{"mode", models};
-  const std::size_t n = models.size();
-  std::vector<std::vector<double>> rows(n, std::vector<double>(n, Kind::total == Fuzzy::total ? 0.5 : 0.05));
-  if (given.is_none()) {  // as himm_demo has them
-    for (std::size_t i = 0; i < n; ++i) {
-      if constexpr (std::is_same_v<Kind, Random>)
-        for (double& leaves : rows[i]) leaves /= static_cast<double>(std::max<std::size_t>(n, 2) - 1);
-      rows[i][i] = std::is_same_v<Kind, Fuzzy> || n == 1 ? 1.0 : 0.95;
-    }
-    return {mode, mode, rows};
-  }
-  if (py::isinstance(given, py::module_::import("sigmax._sigmax").attr("Relation")))
+py::object transition_of(const std::string& filter, const std::vector<std::string>& models, const py::object& given) {
+  constexpr bool fuzzy = std::is_same_v<Kind, Fuzzy>;
+  using Other = std::conditional_t<fuzzy, Random, Fuzzy>;
+  if (py::isinstance<Relation<Kind, Kind>>(given)) return given;
+  if (py::hasattr(given, "from_"))
     throw py::type_error(filter + ": a " + std::string(Kind::name) + " mode and a transition " + class_name(given));
-  const Array table = as_array(given);
+  const py::object mode = py::cast(Variable<Kind>{"mode", models});
+  const std::size_t n = models.size();
+  Array table = given.is_none() ? unknown(n, n) : as_array(given);
   expect_shape(table, "transition", n, n);
+  for (std::size_t i = 0; given.is_none() && i < n * n; ++i)
+    table.mutable_data()[i] =
+        i % (n + 1) > 0 ? (fuzzy ? 0.5 : 0.05 / static_cast<double>(n - 1)) : (fuzzy || n == 1 ? 1.0 : 0.95);
   if (!is_table_of<Kind>(table) && is_table_of<Other>(table))
     refuse(filter, Kind::name, "mode", Other::name, "transition");
-  for (std::size_t i = 0; i < n; ++i) rows[i].assign(table.data() + i * n, table.data() + (i + 1) * n);
-  return {mode, mode, rows};
+  return py::type::of<Relation<Kind, Kind>>()(mode, mode, table);
 }
 
-/// What is known after each row, at its place in series; NaN where there was no step.
-class Series {
- public:
-  Series(std::size_t rows, std::size_t states, std::size_t modes)
-      : x_(pair(rows, states)), P_(triple(rows, states)), weights_(pair(rows, modes)), nis_(py::ssize_t(rows)) {
-    for (Array* array : {&x_, &P_, &weights_, &nis_})
-      std::fill_n(array->mutable_data(), array->size(), std::numeric_limits<double>::quiet_NaN());
-    at_ = {x_.mutable_data(), P_.mutable_data(), weights_.mutable_data(), nis_.mutable_data()};
-  }
-
-  /// Needs no lock of Python.
-  void write(const TargetPoint& point) {
-    std::ranges::copy(point.mean, at_[0] + point.tag * point.mean.size());
-    std::ranges::copy(point.covariance, at_[1] + point.tag * point.covariance.size());
-    std::ranges::copy(point.weights, at_[2] + point.tag * point.weights.size());
-    at_[3][point.tag] = point.nis.value_or(std::numeric_limits<double>::quiet_NaN());
-  }
-  py::tuple arrays() const { return py::make_tuple(x_, P_, weights_, nis_); }
-
- private:
-  static Array pair(std::size_t rows, std::size_t n) { return Array({py::ssize_t(rows), py::ssize_t(n)}); }
-  static Array triple(std::size_t rows, std::size_t n) {
-    return Array({py::ssize_t(rows), py::ssize_t(n), py::ssize_t(n)});
-  }
-
-  Array x_, P_, weights_, nis_;
-  std::array<double*, 4> at_{};
-};
-
-/// A recording at the speed of the library: (x, P, weights, nis, components, stays), smoothed or not.
+/// A recording at the speed of the library: (x, P, weights, nis, components, stays), smoothed or not. Rows are NaN
+/// where there was no step.
 py::tuple follow(TargetChoice choice, const Detections& detections, bool smoothed) {
   choice.rules.record = smoothed || choice.scheme == Scheme::histories;
   AnyTarget target(choice);
-  Series series(detections.rows.size(), target.components().size(), choice.models.size());
-  const auto write = [&](const TargetPoint& point) { series.write(point); };
-  const auto stays = unlocked([&] {
-    target.follow(detections.rows,
-                  smoothed ? [](const TargetPoint&) {} : std::function<void(const TargetPoint&)>(write));
-    if (smoothed) target.smoothed(write);
-    return target.explained();
-  });
+  const std::size_t rows = detections.rows.size(), n = target.components().size();
+  const Array x = unknown(rows, n), P = unknown(rows, n, n), weights = unknown(rows, choice.models.size()),
+              nis = unknown(rows);
+  const auto write = [&](const TargetPoint& point) {  // needs no lock of Python
+    const auto put = [&](const std::vector<double>& row, const Array& series) {
+      std::ranges::copy(row, const_cast<double*>(series.data()) + point.tag * row.size());
+    };
+    put(point.mean, x);
+    put(point.covariance, P);
+    put(point.weights, weights);
+    put({point.nis.value_or(std::numeric_limits<double>::quiet_NaN())}, nis);
+  };
   py::list changes;
-  for (const ModeStay& stay : stays) changes.append(py::make_tuple(stay.since, choice.models[stay.mode]));
-  return series.arrays() + py::make_tuple(target.components(), changes);
+  for (const ModeStay& stay : unlocked([&] {
+         if (!smoothed) return target.follow(detections.rows, write), target.explained();
+         target.follow(detections.rows, [](const TargetPoint&) {});
+         return target.smoothed(write), target.explained();
+       }))
+    changes.append(py::make_tuple(stay.since, choice.models[stay.mode]));
+  return py::make_tuple(x, P, weights, nis, target.components(), changes);
 }
 
 struct Settings {
@@ -225,19 +191,6 @@ struct Scene : MultiTargetTracker {
 };
 
 void bind_tracker(py::module_& module) {
-  py::class_<TrackedTarget> target(module, "TrackedTarget", "A target as a track of MultiTargetTracker knows it.");
-  target.def_readonly("number", &TrackedTarget::number);
-  target.def_readonly("existence", &TrackedTarget::existence);
-  target.def_readonly("necessity", &TrackedTarget::necessity);
-  target.def_readonly("confirmed", &TrackedTarget::confirmed);
-  target.def_readonly("detected", &TrackedTarget::detected);
-  property(target, "time", "In s.", [](const TrackedTarget& self) { return self.point.time; });
-  property(target, "x", "Mean, (n,).", [](const TrackedTarget& self) { return array_of(self.point.mean); });
-  property(target, "P", "Covariance, (n, n).", [](const TrackedTarget& self) {
-    return copied(self.point.covariance.data(), self.point.mean.size(), self.point.mean.size());
-  });
-  property(target, "weights", "Of the modes.", [](const TrackedTarget& self) { return array_of(self.point.weights); });
-
   py::class_<Scene> tracker(
       module, "MultiTargetTracker",
       "Tracks of many targets among false detections, by JPDA, JPDA* or GNN: the kinds of what is eliminated.\n\n"
@@ -266,8 +219,24 @@ void bind_tracker(py::module_& module) {
            return array_of(owners);
          });
   tracker.def(
-      "tracks", [](const Scene& self, std::optional<double> time) { return self.tracks(time); },
-      py::arg("time") = py::none(), "All tracks, confirmed or not, predicted to a time in s if it is given.");
+      "tracks",
+      [](const Scene& self, std::optional<double> time) {
+        py::list all;
+        for (const TrackedTarget& each : self.tracks(time)) {
+          const std::size_t n = each.point.mean.size();
+          all.append(record(py::arg("number") = each.number, py::arg("time") = each.point.time,
+                            py::arg("x") = array_of(each.point.mean),
+                            py::arg("P") = copied(each.point.covariance.data(), n, n),
+                            py::arg("weights") = array_of(each.point.weights), py::arg("existence") = each.existence,
+                            py::arg("necessity") = each.necessity, py::arg("confirmed") = each.confirmed,
+                            py::arg("detected") = each.detected));
+        }
+        return all;
+      },
+      py::arg("time") = py::none(),
+      "All tracks, confirmed or not, predicted to a time in s if it is given: number, time, x (n,), P (n, n), "
+      "weights,\n"
+      "existence, necessity, confirmed, and detected, in so many scans.");
   tracker.def_readonly("mode", &Scene::mode);
   property(tracker, "components", "Names of what is estimated.", [](const Scene& self) { return self.components(); });
   property(tracker, "time", "The latest time of all detections, in s.", [](const Scene& self) { return self.time(); });
@@ -333,39 +302,25 @@ py::tuple tune_targets([[maybe_unused]] const Settings& start,
 
 TargetChoice choice_of(const std::string& filter, const std::vector<Model>& models, const py::object& transition,
                        const py::dict& rules, py::object& relation) {
-  std::vector<std::string> names;
-  for (const KnownFilter& known : known_filters) names.emplace_back(known.name);
-  const KnownFilter& known = known_filters[index_among("filter", filter, names)];
+  const std::size_t known = index_among("filter", filter, filters), schemes = filters.size() / 2;
   TargetChoice choice;
-  choice.fuzzy = known.fuzzy;
-  choice.scheme = known.scheme;
-  if (known.scheme == Scheme::histories) choice.augmentation = StateAugmentation::prior;
-  if (known.scheme == Scheme::histories && !known.fuzzy) choice.cut = 0.0;
+  choice.fuzzy = known >= schemes;
+  choice.scheme = static_cast<Scheme>(known % schemes);
+  if (choice.scheme == Scheme::histories) choice.augmentation = StateAugmentation::prior;
+  if (choice.scheme == Scheme::histories && !choice.fuzzy) choice.cut = 0.0;
   for (const Model& each : models) {
-    std::string name(each.model.name());
-    for (int k = 2; std::ranges::find(choice.models, name) != choice.models.end(); ++k)
-      name = std::string(each.model.name()) + "_" + std::to_string(k);
+    const std::string name(each.model.name());
     choice.models.push_back(name);
+    for (int k = 2; std::ranges::count(choice.models, choice.models.back()) > 1; ++k)
+      choice.models.back() = name + "_" + std::to_string(k);
     choice.motions.push_back(each.known.value_or(MotionChoice{""}));
     choice.axes = each.model.axes();
   }
-  const py::dict others = set_rules(choice, target_rules(), rules);
-  for (const auto& [key, value] : others)
+  for (const auto& [key, value] : set_rules(choice, target_rules(), rules))
     throw py::type_error(filter + ": there is no rule '" + key.cast<std::string>() + "'");
-  const auto take = [&](const auto& made) {
-    choice.models.clear();
-    for (std::size_t j = 0; j < made.to().size(); ++j) choice.models.push_back(made.to().label(j));
-    choice.transition.clear();
-    for (std::size_t i = 0; i < made.from().size(); ++i) {
-      const auto& row = choice.transition.emplace_back(made.to().size());
-      for (std::size_t j = 0; j < row.size(); ++j) choice.transition[i][j] = made(i, j);
-    }
-    relation = py::cast(made);
-  };
-  if (known.fuzzy)
-    take(transition_of<Fuzzy>(filter, choice.models, transition));
-  else
-    take(transition_of<Random>(filter, choice.models, transition));
+  relation = (choice.fuzzy ? transition_of<Fuzzy> : transition_of<Random>)(filter, choice.models, transition);
+  choice.models = relation.attr("to").attr("labels").cast<std::vector<std::string>>();
+  choice.transition = relation.attr("table").attr("tolist")().cast<std::vector<std::vector<double>>>();
   return choice;
 }
 

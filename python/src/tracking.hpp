@@ -27,6 +27,12 @@ struct Sensor {
   std::optional<AnyDetection> plain = {};
 };
 
+/// Throws TypeError for another object.
+inline const Sensor& sensor_of(const py::object& object) {
+  if (!py::isinstance<Sensor>(object)) throw py::type_error("sensor: expected a Sensor, found " + class_name(object));
+  return object.cast<const Sensor&>();
+}
+
 /// A recording, or a scan: the tag of each detection is its row.
 struct Detections {
   std::vector<AnyDetection> rows;
