@@ -52,6 +52,18 @@ inline Array as_array(const pybind11::object& object) {
   return pybind11::module_::import("numpy").attr("ascontiguousarray")(object, "float64").cast<Array>();
 }
 
+/// The same in a tenth of the time of Array's caster where the object is such an array: for what is called in each
+/// step.
+inline Array quick_array(const pybind11::object& object) {
+  using Api = pybind11::detail::npy_api;
+  constexpr int sound = Api::NPY_ARRAY_C_CONTIGUOUS_ | Api::NPY_ARRAY_ALIGNED_;
+  if (!pybind11::isinstance<pybind11::array>(object)) return Array(object);
+  const auto* const array = pybind11::detail::array_proxy(object.ptr());
+  const auto* const type = pybind11::detail::array_descriptor_proxy(array->descr);
+  const bool ready = (array->flags & sound) == sound && type->type_num == Api::NPY_DOUBLE_ && type->byteorder == '=';
+  return ready ? pybind11::reinterpret_borrow<Array>(object) : Array(object);
+}
+
 /// Compressed sparse rows: a sparse matrix of SciPy, or anything else that has `tocsr`.
 inline bool is_sparse(const pybind11::object& rows) { return pybind11::hasattr(rows, "tocsr"); }
 

@@ -122,7 +122,10 @@ void bind_kind(py::module_& module) {
   py::class_<Filter> type(module, (kind + "ModeFilter").c_str(), "A multiple-model filter with a mode of this kind.");
   type.def(
       "step",
-      [](Filter& self, double dt, const Array& z, const Array& R, const py::object& sensor, const Gate& gate) {
+      [](Filter& self, double dt, const py::object& numbers, const py::object& noise, const py::object& sensor,
+         const py::object& gate) {
+        static const Gate open;
+        const Array z = quick_array(numbers), R = quick_array(noise);
         expect_shape(z, "z", -1);
         const auto m = static_cast<int>(z.size());
         if (m < 1 || m > (sensor.is_none() ? 3 : max_measurement_size))
@@ -131,14 +134,14 @@ void bind_kind(py::module_& module) {
                                       "of a sensor");
         double covariance[max_measurement_size * max_measurement_size];
         write_covariance(R, 0, 1, m, covariance);
-        const AnySensor& own = sensor.is_none() ? detail::position_sensor(m) : sensor_of(sensor).any;
+        const AnySensor& own = sensor.is_none() ? detail::position_sensor(m) : argument<Sensor>("sensor", sensor).any;
         const Seen seen{{z.data(), covariance, m}, detail::sensor_of_models(own)};
-        self.step(dt, &seen, gate);
+        self.step(dt, &seen, gate.is_none() ? open : argument<Gate>("gate", gate));
       },
       "One cycle, dt seconds after the last, without a detection or with z (m,) and its R, (m, m) or variances "
       "(m,).\n\n"
       "Without a sensor z is a position. Beyond the gate it counts as missed.",
-      py::arg("dt"), py::arg("z"), py::arg("R"), py::arg("sensor") = py::none(), py::arg("gate") = Gate());
+      py::arg("dt"), py::arg("z"), py::arg("R"), py::arg("sensor") = py::none(), py::arg("gate") = py::none());
   type.def(
       "step", [](Filter& self, double dt) { self.step(dt); }, py::arg("dt"));
   type.def(

@@ -98,7 +98,7 @@ template <class Data>
 py::dict set_rules(Data& data, const Rules<Data>& rules, const py::dict& given) {
   py::dict others;
   for (const auto& [key, value] : given) {
-    const auto rule = rules.find(key.cast<std::string>());
+    const auto rule = rules.find(py::cast<std::string>(key));
     if (rule == rules.end())
       others[key] = value;
     else
@@ -317,7 +317,7 @@ TargetChoice choice_of(const std::string& filter, const std::vector<Model>& mode
     choice.axes = each.model.axes();
   }
   for (const auto& [key, value] : set_rules(choice, target_rules(), rules))
-    throw py::type_error(filter + ": there is no rule '" + key.cast<std::string>() + "'");
+    throw py::type_error(filter + ": there is no rule '" + py::cast<std::string>(key) + "'");
   relation = (choice.fuzzy ? transition_of<Fuzzy> : transition_of<Random>)(filter, choice.models, transition);
   choice.models = relation.attr("to").attr("labels").cast<std::vector<std::string>>();
   choice.transition = relation.attr("table").attr("tolist")().cast<std::vector<std::vector<double>>>();

@@ -27,10 +27,13 @@ struct Sensor {
   std::optional<AnyDetection> plain = {};
 };
 
-/// Throws TypeError for another object.
-inline const Sensor& sensor_of(const py::object& object) {
-  if (!py::isinstance<Sensor>(object)) throw py::type_error("sensor: expected a Sensor, found " + class_name(object));
-  return object.cast<const Sensor&>();
+/// The argument of this name. Throws TypeError for an object of another class.
+template <class T>
+const T& argument(const char* name, const py::object& object) {
+  if (!py::isinstance<T>(object))
+    throw py::type_error(std::string(name) + ": expected a " +
+                         std::string(py::str(py::type::of<T>().attr("__name__"))) + ", found " + class_name(object));
+  return object.cast<const T&>();
 }
 
 /// A recording, or a scan: the tag of each detection is its row.

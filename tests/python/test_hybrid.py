@@ -198,6 +198,8 @@ def test_wrong_shapes_and_words():
     ]:
         with pytest.raises(ValueError, match=words):
             call()
+    with pytest.raises(TypeError, match="gate: expected a Gate, found float"):
+        filter.step(0.2, z[0], R=R, gate=0.99)
     with pytest.raises(TypeError, match="there is no rule 'gaet'"):
         sx.track(times, z, R=R, models=bank, gaet=0.99)
 
