@@ -107,18 +107,6 @@ py::dict set_rules(Data& data, const Rules<Data>& rules, const py::dict& given) 
   return others;
 }
 
-/// Whether each row could be a distribution of this kind.
-template <class Kind>
-bool is_table_of(const Array& rows) {
-  for (py::ssize_t i = 0; i < rows.shape(0); ++i) {
-    double total = 0.0;
-    for (py::ssize_t j = 0; j < rows.shape(1); ++j)
-      total = AlgebraOf<Kind>::plus(total, rows.data()[i * rows.shape(1) + j]);
-    if (!(std::abs(total - 1.0) <= 1e-9)) return false;
-  }
-  return true;
-}
-
 /// The transition of a mode of this kind, by default that of himm_demo. Throws TypeError for one of another kind.
 template <class Kind>
 py::object transition_of(const std::string& filter, const std::vector<std::string>& models, const py::object& given) {
@@ -134,8 +122,15 @@ py::object transition_of(const std::string& filter, const std::vector<std::strin
   for (std::size_t i = 0; given.is_none() && i < n * n; ++i)
     table.mutable_data()[i] =
         i % (n + 1) > 0 ? (fuzzy ? 0.5 : 0.05 / static_cast<double>(n - 1)) : (fuzzy || n == 1 ? 1.0 : 0.95);
-  if (!is_table_of<Kind>(table) && is_table_of<Other>(table))
-    refuse(filter, Kind::name, "mode", Other::name, "transition");
+  const auto is_table_of = [&]<class Each>(Each) {
+    for (std::size_t i = 0; i < n; ++i) {
+      double total = 0.0;
+      for (std::size_t j = 0; j < n; ++j) total = AlgebraOf<Each>::plus(total, table.data()[i * n + j]);
+      if (!(std::abs(total - 1.0) <= 1e-9)) return false;
+    }
+    return true;
+  };
+  if (!is_table_of(Kind{}) && is_table_of(Other{})) refuse(filter, Kind::name, "mode", Other::name, "transition");
   return py::type::of<Relation<Kind, Kind>>()(mode, mode, table);
 }
 
@@ -166,6 +161,16 @@ py::tuple follow(TargetChoice choice, const Detections& detections, bool smoothe
   return py::make_tuple(x, P, weights, nis, target.components(), changes);
 }
 
+/// The same for whole recordings, which the library runs alone. Throws TypeError for a model of the user's own.
+TargetChoice known_choice(const std::string& filter, const std::vector<Model>& models, const py::object& transition,
+                          const py::dict& rules, py::object& relation) {
+  for (const Model& each : models)
+    if (!each.known)
+      throw py::type_error(filter + ": a recording needs motions of the library; '" + std::string(each.model.name()) +
+                           "' is your own, so call the filter's step");
+  return choice_of(filter, models, transition, rules, relation);
+}
+
 struct Settings {
   TargetChoice choice;
   py::object relation;
@@ -176,7 +181,7 @@ void bind_targets(py::module_& module) {
   settings.def(py::init([](const std::string& filter, const std::vector<Model>& models, const py::object& transition,
                            const py::dict& rules) {
     Settings made;
-    made.choice = choice_of(filter, models, transition, rules, made.relation);
+    made.choice = known_choice(filter, models, transition, rules, made.relation);
     return made;
   }));
   settings.def_property_readonly("mode", [](const Settings& self) { return self.relation.attr("to"); });
@@ -201,7 +206,7 @@ void bind_tracker(py::module_& module) {
         MultiTargetRules scene;
         py::object relation;
         const py::dict others = set_rules(scene, scene_rules(), given);
-        const TargetChoice choice = choice_of(filter, models, transition, others, relation);
+        const TargetChoice choice = known_choice(filter, models, transition, others, relation);
         const auto fuzzy = [](const char* what, const std::string& kind) {
           return index_among(what, kind, {"random", "fuzzy"}) == 1;
         };

@@ -62,12 +62,6 @@ inline void require_quantities(py::ssize_t m) {
     throw std::invalid_argument("z has " + std::to_string(m) + " quantities; expected 1 to 6");
 }
 
-/// Numbers of an array, with NaN where a masked array hides them.
-inline Array unmasked(const py::object& numbers) {
-  if (!py::hasattr(numbers, "mask")) return as_array(numbers);
-  return as_array(numbers.attr("astype")("float64").attr("filled")(std::numeric_limits<double>::quiet_NaN()));
-}
-
 /// The index among words of the one that is given. Throws ValueError, which lists them.
 std::size_t index_among(const std::string& key, const std::string& given, const std::vector<std::string>& words);
 

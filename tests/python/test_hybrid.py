@@ -187,13 +187,14 @@ def test_wrong_shapes_and_words():
         (lambda: filter.step(0.2, z[0], R=100.0), r"R: expected shape \(3, 3\), found \(\)"),
         (lambda: filter.step(0.2, np.zeros(7), R=np.eye(7)), "z"),
         (lambda: filter.step(0.2, [np.nan] * 3, R=R), "finite"),
+        (lambda: filter.step(0.2, np.ma.array(z[0], mask=[0, 1, 0]), R=R), "finite"),
         (lambda: filter.restart(start["x"][:3], R), r"x: expected shape \(9,\)"),
         (lambda: sx.track(times, z[:-1], R=R, models=bank), r"z: expected shape \(200, any\), found \(199, 3\)"),
         (lambda: sx.track(times, np.where(z > 1e3, z, np.nan), R=R, models=bank), r"z: row \d+ has \d NaN of 3"),
         (lambda: sx.track(times, z, R=R, models=bank, filter="ukf"), "filter: expected one of imm, .*himm.*found 'ukf'"),
         (lambda: sx.track(times, z, R=R, models=bank, augmentation="none"), "augmentation: expected one of zero"),
         (lambda: models.dwna(4), "along 4 axes"),
-        (lambda: models.singer(2, tau=-1.0), "tau_s is -1.*expected positive"),
+        (lambda: models.singer(2, tau=-1.0), "the rate of model 'singer' is -1"),
         (lambda: models.linear(np.eye(2), np.eye(3), ["x", "v"]), r"Q: expected shape \(2, 2\)"),
     ]:
         with pytest.raises(ValueError, match=words):
@@ -219,6 +220,10 @@ def test_functions_of_python_are_models_and_sensors():
         for filter, eye in zip(filters, eyes):
             filter.step(1.0, seen, R=[100.0, 1e-6], sensor=eye)
             np.testing.assert_allclose(filter.x, filters[0].x, rtol=1e-6)
+    with pytest.raises(TypeError, match="himm: a recording needs motions of the library; 'motion' is your own"):
+        sx.track([1.0], [[0.0, 0.0]], R=[1.0, 1.0], models=[own])
+    with pytest.raises(TypeError, match="a sensor of your own"):
+        sx.Detections([1.0], [[0.0, 0.0]], [1.0, 1.0], eyes[1])
     points = sx.IMM([models.motion(lambda x, dt: F(dt) @ x, Q, names, member="ukf")], **begin)
     points.step(1.0, [4980.0, 3.1], R=[100.0, 1e-6], sensor=eyes[1])
 
