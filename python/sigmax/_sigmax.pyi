@@ -264,6 +264,16 @@ def write_bif(path: str | os.PathLike[str], network: RelationNetwork, name: str 
 
 # ------------------------------------------------------------------------------------------------------ recognition
 
+_Features = Sequence[tuple[str, Sequence[float], Sequence[str]]]
+
+class TableClassifier:
+    def __init__(self, __pattern: RandomVariable, __features: _Features, __counts: npt.ArrayLike, __fuzzy_pattern: bool, __fuzzy_features: bool, __transform: RatioScale | DuboisPrade, __smoothing: float, __equal_prior: bool) -> None: ...
+    def log_degrees(self, rows: npt.ArrayLike, /) -> _Array: ...
+    def explain(self, row: npt.ArrayLike, pattern: int, rival: int, /) -> tuple[float, list[tuple[str, str, float, str]]]: ...
+
+def count_rows(classes: int, features: _Features, labels: npt.ArrayLike, rows: npt.ArrayLike, weights: npt.ArrayLike, /) -> _Array: ...
+def equal_frequency(values: npt.ArrayLike, bins: int, /) -> _Array: ...
+
 # ------------------------------------------------------------------------------------------------------- estimation
 
 class Model:

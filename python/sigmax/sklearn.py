@@ -1,0 +1,144 @@
+"""Recognition by the conventions of scikit-learn, which only this module needs."""
+from collections import namedtuple
+
+import numpy as np
+from sklearn.base import BaseEstimator, ClassifierMixin
+from sklearn.utils import multiclass, validation
+
+from . import _sigmax
+
+# Why a row is of the class `pattern` rather than `rival`: logarithms of ratios, which add up.
+Explanation = namedtuple("Explanation", "pattern rival log_prior_ratio contributions")
+Contribution = namedtuple("Contribution", "feature reading log_ratio equation")
+
+
+class SigmaMaxClassifier(ClassifierMixin, BaseEstimator):
+    """Classes and features of either kind, "random" or "fuzzy": (17)-(20), (41)-(46). Both random is categorical naive Bayes.
+
+    Numbers become at most `bins` bins, words values; NaN, None and words that are new in `predict` are missing.
+    `transformation`, "ratio" or "dubois_prade", makes possibilities of counts, to each of which `smoothing` is added.
+    Without `fit_prior` nothing is known of the class before a row is seen."""
+
+    def __init__(self, pattern="random", features="random", *, transformation="ratio", bins=8, smoothing=1.0, fit_prior=True):
+        self.pattern, self.features, self.transformation = pattern, features, transformation
+        self.bins, self.smoothing, self.fit_prior = bins, smoothing, fit_prior
+
+    def fit(self, X, y, sample_weight=None):
+        """Learns rows X (N, n) of classes y (N,), and forgets all other rows."""
+        X, y = self._validated(X, y=y, reset=True)
+        multiclass.check_classification_targets(y)
+        self.classes_ = np.unique(y)
+        return self._learn(X, y, sample_weight, True)
+
+    def partial_fit(self, X, y, classes=None, sample_weight=None):
+        """Learns more rows. The first call needs all classes, and its rows fix the bins and words."""
+        first = multiclass._check_partial_fit_first_call(self, classes)
+        return self._learn(*self._validated(X, y=y, reset=first), sample_weight, first)
+
+    def predict(self, X):
+        """Returns the most likely class of each row, (N,); of several, the first."""
+        best = self._log_degrees(X).argmax(axis=1)
+        return self.classes_[best]
+
+    def predict_proba(self, X):
+        """Returns probabilities (N, classes). Possibilities are divided by their sum: the ratio scale, (35)."""
+        possible = self.possibility(X)
+        return possible / possible.sum(axis=1, keepdims=True)
+
+    def possibility(self, X):
+        """Returns the possibility of each class, (N, classes). Probabilities are divided by their maximum, (34)."""
+        return np.exp(self._log_degrees(X))
+
+    def necessity(self, X):
+        """Returns one less the greatest possibility of the other classes, (N, classes)."""
+        possible = self.possibility(X)
+        ascending = np.pad(np.sort(possible, axis=1), ((0, 0), (1, 0)))
+        return 1.0 - np.where(possible == 1.0, ascending[:, [-2]], 1.0)
+
+    def explain(self, x):
+        """Returns the Explanation of one row, (n,) or (1, n)."""
+        cells = self._cells([x] if np.ndim(x) == 1 else x)
+        best = np.argsort(-self._learned().log_degrees(cells)[0], kind="stable")[[0, min(1, len(self.classes_) - 1)]]
+        (row,) = cells
+        prior, contributions = self._learned().explain(row, *best)
+        return Explanation(*self.classes_[best], prior, [Contribution(*each) for each in contributions])
+
+    def _validated(self, X, **options):
+        options["dtype"] = None
+        if hasattr(validation, "validate_data"):  # scikit-learn 1.6
+            return validation.validate_data(self, X, ensure_all_finite="allow-nan", **options)
+        return self._validate_data(X, force_all_finite="allow-nan", **options)
+
+    def _learned(self):
+        validation.check_is_fitted(self)
+        if not hasattr(self, "_classifier"):
+            kinds = [_choice(self, name, {"random": False, "fuzzy": True}) for name in ("pattern", "features")]
+            transform = _choice(self, "transformation", {"ratio": _sigmax.RatioScale, "dubois_prade": _sigmax.DuboisPrade})()
+            pattern = _sigmax.RandomVariable("class", [str(label) for label in self.classes_])
+            self._classifier = _sigmax.TableClassifier(
+                pattern, self._features, self.counts_, *kinds, transform, self.smoothing, not self.fit_prior)
+        return self._classifier
+
+    def __getstate__(self):
+        return {name: value for name, value in super().__getstate__().items() if name != "_classifier"}
+
+    def _log_degrees(self, X):
+        return self._learned().log_degrees(self._cells(X))
+
+    def _cells(self, X):
+        return self._numbers(self._validated(X, reset=False))
+
+    def _numbers(self, X):
+        if X.dtype.kind not in "OUS":
+            return X
+        cells = np.full(X.shape, np.nan)
+        for i, (name, cuts, words) in enumerate(self._features):
+            if not words:
+                cells[:, i] = X[:, i].astype(float)
+                continue
+            texts = X[:, i].astype(str)
+            found = np.minimum(np.searchsorted(words, texts), len(words) - 1)
+            cells[:, i] = np.where(np.asarray(words)[found] == texts, found, np.nan)
+        return cells
+
+    def _learn(self, X, y, weights, first):
+        weights = validation._check_sample_weight(weights, X)
+        X, y, weights = (X, y, weights) if weights.all() else (each[weights != 0] for each in (X, y, weights))
+        labels = np.minimum(np.searchsorted(self.classes_, y), len(self.classes_) - 1)
+        if np.any(self.classes_[labels] != y):
+            raise ValueError(f"y has classes that are not in {self.classes_}")
+        if first:
+            names = getattr(self, "feature_names_in_", [f"x{i}" for i in range(X.shape[1])])
+            self._features = [(name, *_values(column, self.bins)) for name, column in zip(names, X.T)]
+            self.counts_ = 0.0
+        self.counts_ = self.counts_ + _sigmax.count_rows(
+            len(self.classes_), self._features, labels, self._numbers(X), weights)
+        vars(self).pop("_classifier", None)
+        self._learned()
+        return self
+
+    def _more_tags(self):
+        return {"allow_nan": True, "X_types": ["2darray", "string"]}
+
+    def __sklearn_tags__(self):
+        tags = super().__sklearn_tags__()
+        tags.input_tags.allow_nan = tags.input_tags.string = True
+        return tags
+
+
+def _choice(estimator, name, choices):
+    value = getattr(estimator, name)
+    if value not in choices:
+        raise ValueError(f"{name}: expected {' or '.join(map(repr, choices))}, found {value!r}")
+    return choices[value]
+
+
+def _values(column, bins):
+    """The cuts of a column, and its words if it is not of numbers."""
+    try:
+        return _sigmax.equal_frequency(column.astype(float), bins).tolist(), []
+    except (ValueError, TypeError):
+        if column.dtype.kind not in "OUS":
+            raise
+    words = [str(word) for word in np.unique(column.astype(str)) if word not in ("", "nan", "None", "<NA>")] or ["missing"]
+    return [float(i) for i in range(1, len(words))], words
