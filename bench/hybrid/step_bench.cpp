@@ -7,6 +7,7 @@
 #include <benchmark/benchmark.h>
 
 #include <sigmax/estimation/any_model.hpp>
+#include <sigmax/hybrid/any_target.hpp>
 #include <sigmax/hybrid/interacting_multiple_model.hpp>
 
 #include "hybrid/bare_imm.hpp"
@@ -100,5 +101,21 @@ void ModesStep(benchmark::State& state) {
   step_with_output(state, models, Relation<Random, Random>{mode, mode, rows});
 }
 BENCHMARK(ModesStep)->Name("ImmStep/models")->Arg(2)->Arg(3)->Arg(4)->Arg(5)->Arg(8)->Arg(16);
+
+/// A recording, its models chosen at run time: what `track` of the Python package does.
+void FollowRecording(benchmark::State& state) {
+  std::vector<AnyDetection> detections;
+  for (const auto& z : measurements())
+    detections.push_back(AnyDetection::position(T * static_cast<double>(detections.size()), {z.mean.data(), 3},
+                                                {z.covariance.data(), 9}));
+  TargetChoice choice;
+  choice.models = {"dwna", "dwpa"};
+  choice.motions = {{"dwna"}, {"dwpa"}};
+  choice.transition = {{0.95, 0.05}, {0.05, 0.95}};
+  for (auto _ : state)
+    AnyTarget(choice).follow(detections, [](const TargetPoint& point) { benchmark::DoNotOptimize(point.mean.data()); });
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(detections.size()));
+}
+BENCHMARK(FollowRecording);
 
 }  // namespace
