@@ -16,7 +16,7 @@ after = sx.update(looks, evening_given_group.likelihood("goes out"))
 places = np.arange(len(group))
 for shift, label, belief in (-0.2, "by his looks", looks), (0.2, "he goes out, too", after):
     bars = plt.bar(places + shift, belief.values, 0.36, alpha=0.5, label=f"possibility, {label}")
-    necessity = [sx.necessity(belief, sx.Event(group, [name])) for name in group.labels]
+    necessity = [sx.necessity(belief, [name]) for name in group.labels]
     plt.bar(places + shift, necessity, 0.36, color=bars[0].get_facecolor(), alpha=1)
 plt.xticks(places, group.labels)
 plt.ylim(0, 1.35)

@@ -2,4 +2,5 @@
 
 from ._sigmax import *
 from . import models, sensors
+from .joint import HybridDistribution
 from .tracks import Track, Tuned, associate, track, tune

@@ -58,10 +58,16 @@ class SigmaMaxClassifier(ClassifierMixin, BaseEstimator):
     def explain(self, x):
         """Returns the Explanation of one row, (n,) or (1, n)."""
         cells = self._cells([x] if np.ndim(x) == 1 else x)
-        best = np.argsort(-self._learned().log_degrees(cells)[0], kind="stable")[[0, min(1, len(self.classes_) - 1)]]
-        (row,) = cells
-        prior, contributions = self._learned().explain(row, *best)
-        return Explanation(*self.classes_[best], prior, [Contribution(*each) for each in contributions])
+        best = np.argsort(-self._of_cells(cells)[0], kind="stable")[[0, min(1, len(self.classes_) - 1)]]
+        (row,), contributions = cells, []
+        for (name, cuts, labels, _), logs, cell in zip(self._features, self._logs, row):
+            if not np.isnan(cell):
+                found = np.searchsorted(cuts, cell, side="right")
+                of_both = logs[found, best]
+                equation = f"({name} = {labels[found]}|class = {self.classes_[best[0]]}) = {np.exp(of_both[0]):.4g}"
+                symbol = "p" if self.features == "random" else "π"
+                contributions.append(Contribution(name, labels[found], _log_ratio(*of_both), symbol + equation))
+        return Explanation(*self.classes_[best], _log_ratio(*self._log_prior[best]), contributions)
 
     def _validated(self, X, **options):
         options["dtype"] = None
@@ -69,36 +75,24 @@ class SigmaMaxClassifier(ClassifierMixin, BaseEstimator):
             return validation.validate_data(self, X, ensure_all_finite="allow-nan", **options)
         return self._validate_data(X, force_all_finite="allow-nan", **options)
 
-    def _learned(self):
-        validation.check_is_fitted(self)
-        if not hasattr(self, "_classifier"):
-            kinds = [_choice(self, name, {"random": False, "fuzzy": True}) for name in ("pattern", "features")]
-            transform = _choice(self, "transformation", {"ratio": _sigmax.RatioScale, "dubois_prade": _sigmax.DuboisPrade})()
-            pattern = _sigmax.RandomVariable("class", [str(label) for label in self.classes_])
-            self._classifier = _sigmax.TableClassifier(
-                pattern, self._features, self.counts_, *kinds, transform, self.smoothing, not self.fit_prior)
-        return self._classifier
-
-    def __getstate__(self):
-        return {name: value for name, value in super().__getstate__().items() if name != "_classifier"}
-
     def _log_degrees(self, X):
-        return self._learned().log_degrees(self._cells(X))
+        return self._of_cells(self._cells(X))
+
+    def _of_cells(self, cells):
+        return _sigmax._log_degrees(self._log_prior, self._logs, [cuts for _, cuts, *_ in self._features], cells)
 
     def _cells(self, X):
+        validation.check_is_fitted(self)
         return self._numbers(self._validated(X, reset=False))
 
     def _numbers(self, X):
         if X.dtype.kind not in "OUS":
             return X
         cells = np.full(X.shape, np.nan)
-        for i, (name, cuts, words) in enumerate(self._features):
-            if not words:
-                cells[:, i] = X[:, i].astype(float)
-                continue
-            texts = X[:, i].astype(str)
-            found = np.minimum(np.searchsorted(words, texts), len(words) - 1)
-            cells[:, i] = np.where(np.asarray(words)[found] == texts, found, np.nan)
+        for i, (_, _, labels, words) in enumerate(self._features):
+            texts = X[:, i].astype(str if words else float)
+            found = np.minimum(np.searchsorted(labels, texts), len(labels) - 1) if words else texts
+            cells[:, i] = np.where(np.asarray(labels)[found] == texts, found, np.nan) if words else texts
         return cells
 
     def _learn(self, X, y, weights, first):
@@ -109,13 +103,32 @@ class SigmaMaxClassifier(ClassifierMixin, BaseEstimator):
             raise ValueError(f"y has classes that are not in {self.classes_}")
         if first:
             names = getattr(self, "feature_names_in_", [f"x{i}" for i in range(X.shape[1])])
-            self._features = [(name, *_values(column, self.bins)) for name, column in zip(names, X.T)]
+            self._features = [(name, *_bins(column, self.bins)) for name, column in zip(names, X.T)]
             self.counts_ = 0.0
-        self.counts_ = self.counts_ + _sigmax.count_rows(
-            len(self.classes_), self._features, labels, self._numbers(X), weights)
-        vars(self).pop("_classifier", None)
-        self._learned()
+        cuts = [cuts for _, cuts, *_ in self._features]
+        self.counts_ = self.counts_ + _sigmax._count_rows(len(self.classes_), cuts, labels, self._numbers(X), weights)
+        self._make_logs()
         return self
+
+    def _make_logs(self):
+        """Logarithms of the prior (classes,), and of each reading (columns, readings, classes): zero where one is missing."""
+        kinds = [_choice(self, name, {"random": False, "fuzzy": True}) for name in ("pattern", "features")]
+        transform = _choice(self, "transformation", {"ratio": _sigmax.RatioScale, "dubois_prade": _sigmax.DuboisPrade})()
+        if not self.smoothing >= 0:
+            raise ValueError(f"smoothing: expected a number that is not negative, found {self.smoothing}")
+
+        def learned(fuzzy, *variables_and_weights):
+            by_sums = _sigmax.normalized(*variables_and_weights)
+            return _sigmax.to_possibility(by_sums, transform) if fuzzy else by_sums
+
+        pattern = _sigmax.RandomVariable("class", [str(label) for label in self.classes_])
+        rows = self.counts_[0].sum(axis=1) if self.fit_prior else np.ones(len(pattern))
+        self._logs = np.zeros(self.counts_.transpose(0, 2, 1).shape)
+        with np.errstate(divide="ignore"):
+            self._log_prior = np.log(learned(kinds[0], pattern, rows).values)
+            for (name, _, labels, _), counts, logs in zip(self._features, self.counts_, self._logs):
+                weights = counts[:, : len(labels)] + self.smoothing
+                logs[: len(labels)] = np.log(learned(kinds[1], _sigmax.RandomVariable(name, labels), pattern, weights).table.T)
 
     def _more_tags(self):
         return {"allow_nan": True, "X_types": ["2darray", "string"]}
@@ -133,12 +146,16 @@ def _choice(estimator, name, choices):
     return choices[value]
 
 
-def _values(column, bins):
-    """The cuts of a column, and its words if it is not of numbers."""
+def _log_ratio(log, other):
+    return 0.0 if log == other else log - other
+
+
+def _bins(column, bins):
+    """The cuts of a column, the labels of its readings, and whether they are words."""
     try:
-        return _sigmax.equal_frequency(column.astype(float), bins).tolist(), []
+        return *_sigmax._bins(column.astype(float), bins), False
     except (ValueError, TypeError):
         if column.dtype.kind not in "OUS":
             raise
     words = [str(word) for word in np.unique(column.astype(str)) if word not in ("", "nan", "None", "<NA>")] or ["missing"]
-    return [float(i) for i in range(1, len(words))], words
+    return [float(i) for i in range(1, len(words))], words, True

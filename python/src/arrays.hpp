@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <limits>
 #include <span>
@@ -11,8 +12,6 @@
 
 #include <pybind11/numpy.h>
 
-#include <sigmax/core/rows.hpp>
-
 namespace sigmax::python {
 
 /// Numbers from Python: a contiguous array of doubles, converted only if it is anything else.
@@ -21,30 +20,27 @@ using Array = pybind11::array_t<double, pybind11::array::c_style | pybind11::arr
 /// Throws ValueError, which names the argument and both shapes, unless the array has this one. −1 is any length.
 template <class... Lengths>
 void expect_shape(const Array& array, const char* name, Lengths... lengths) {
-  const pybind11::ssize_t expected[] = {static_cast<pybind11::ssize_t>(lengths)...};
-  bool same = array.ndim() == sizeof...(lengths);
-  for (pybind11::ssize_t i = 0; same && i < array.ndim(); ++i)
-    same = expected[i] == -1 || expected[i] == array.shape(i);
-  if (same) return;
-  const auto text = [](const auto* shape, pybind11::ssize_t size) {
-    std::string list;
-    for (pybind11::ssize_t i = 0; i < size; ++i)
-      list += (i == 0 ? "" : ", ") + (shape[i] == -1 ? std::string("any") : std::to_string(shape[i]));
-    return "(" + list + (size == 1 ? ",)" : ")");
-  };
-  throw std::invalid_argument(std::string(name) + ": expected shape " + text(expected, sizeof...(lengths)) +
-                              ", found " + text(array.shape(), array.ndim()));
+  const std::array<pybind11::ssize_t, sizeof...(lengths)> expected{static_cast<pybind11::ssize_t>(lengths)...};
+  const std::span found(array.shape(), static_cast<std::size_t>(array.ndim()));
+  if (std::ranges::equal(expected, found, [](auto length, auto is) { return length == -1 || length == is; })) return;
+  const pybind11::str shown("{}: expected shape {}, found {}");
+  const pybind11::object text = shown.format(name, pybind11::make_tuple(lengths...), array.attr("shape"));
+  throw std::invalid_argument(text.attr("replace")("-1", "any").cast<std::string>());
 }
 
-/// The numbers of an array in row order.
-inline std::span<const double> numbers(const Array& array) {
+/// The numbers of a one-dimensional array; ValueError otherwise.
+inline std::span<const double> row_of(const Array& array) {
+  expect_shape(array, "numbers", -1);
   return {array.data(), static_cast<std::size_t>(array.size())};
 }
 
-/// The same of a one-dimensional array; ValueError otherwise.
-inline std::span<const double> row_of(const Array& array) {
-  expect_shape(array, "numbers", -1);
-  return numbers(array);
+/// The rows of a two-dimensional array; ValueError otherwise.
+inline std::vector<std::vector<double>> rows_of(const Array& array) {
+  expect_shape(array, "rows", -1, -1);
+  std::vector<std::vector<double>> rows;
+  for (pybind11::ssize_t i = 0, n = array.shape(1); i < array.shape(0); ++i)
+    rows.emplace_back(array.data() + i * n, array.data() + (i + 1) * n);
+  return rows;
 }
 
 /// Anything that NumPy can make such an array of. Throws TypeError, or what NumPy throws, otherwise.
@@ -70,25 +66,12 @@ inline Array quick_array(const pybind11::object& object) {
   return ready ? pybind11::reinterpret_borrow<Array>(object) : Array(object);
 }
 
-/// Compressed sparse rows: a sparse matrix of SciPy, or anything else that has `tocsr`.
-inline bool is_sparse(const pybind11::object& rows) { return pybind11::hasattr(rows, "tocsr"); }
-
-inline SparseRows sparse_rows(const pybind11::object& matrix) {
-  const pybind11::object rows = matrix.attr("tocsr")();
-  const auto ends = rows.attr("indptr").cast<pybind11::array_t<std::size_t, pybind11::array::forcecast>>();
-  const auto columns = rows.attr("indices").cast<pybind11::array_t<std::uint32_t, pybind11::array::forcecast>>();
-  const auto values = rows.attr("data").cast<Array>();
-  return SparseRows(rows.attr("shape").cast<std::pair<std::size_t, std::size_t>>().second,
-                    std::span(ends.data(), static_cast<std::size_t>(ends.size())).subspan(1),
-                    {columns.data(), columns.data() + columns.size()}, {values.data(), values.data() + values.size()});
-}
-
 /// A read-only array over numbers that `owner` keeps, and which keeps `owner`: nothing is copied.
-template <class Number, class... Lengths>
-pybind11::array view(const Number* data, pybind11::handle owner, Lengths... lengths) {
-  pybind11::array array(pybind11::dtype::of<Number>(), {static_cast<pybind11::ssize_t>(lengths)...}, data, owner);
+template <class... Lengths>
+pybind11::array view(const double* data, pybind11::handle owner, Lengths... lengths) {
+  Array array({static_cast<pybind11::ssize_t>(lengths)...}, data, owner);
   array.attr("setflags")(pybind11::arg("write") = false);
-  return array;
+  return std::move(array);
 }
 
 /// A new array with a copy of numbers.

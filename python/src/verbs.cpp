@@ -1,69 +1,50 @@
 #include "arrays.hpp"
 #include "kinds.hpp"
 
+#include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include <pybind11/stl.h>
 
 namespace sigmax::python {
-
-void bind_verbs(py::module_& module);
-
 namespace {
 
-/// The kind of the variable that a table of the right is a function of, and its name in messages.
-template <class Right>
-constexpr std::string_view left_kind() {
-  if constexpr (requires { typename Right::to_kind; })
-    return Right::to_kind::name;
-  else
-    return Right::kind::name;
-}
-template <class Left>
-constexpr std::string_view right_kind() {
-  if constexpr (requires { typename Left::from_kind; })
-    return Left::from_kind::name;
-  else
-    return Left::kind::name;
+/// The function for whatever else it is called with.
+void refuse_others(py::module_& module, const std::string& signature) {
+  const std::string name = signature.substr(0, signature.find('('));
+  module.def(name.c_str(), [name](const py::args& arguments) { refuse(name, arguments); });
 }
 
-py::object compose_any(py::handle left, py::handle right) {
-  constexpr auto lefts = Relations{} + InducedRelations{} + Likelihoods{};
-  constexpr auto rights = Relations{} + InducedRelations{} + Distributions{} + InducedDistributions{};
-  return visit(lefts, left, "compose: expected a relation or a likelihood", [&]<class L>(const L& l) {
-    return visit(rights, right, "compose: expected a relation or a distribution",
-                 [&]<class R>(const R& r) -> py::object {
-                   if constexpr (requires { compose(l, r); })
-                     return py::cast(unlocked([&] { return compose(l, r); }));
-                   else
-                     refuse("compose", right_kind<L>(), "condition or likelihood on the left", left_kind<R>(),
-                            "variable on the right");
-                 });
-  });
-}
-
-py::object update_any(py::handle prior, py::handle likelihood) {
-  return visit(Distributions{}, prior, "update: expected a distribution", [&]<class P>(const P& p) {
-    return visit(Likelihoods{}, likelihood, "update: expected a likelihood", [&]<class L>(const L& l) -> py::object {
-      if constexpr (requires { update(p, l); })
-        return py::cast(update(p, l));
-      else
-        refuse("update", P::kind::name, "prior", L::kind::name, "likelihood");
+/// A function of two objects, of all types for which it compiles. Other threads run meanwhile.
+template <class... Left, class Rights, class Call>
+void verb(py::module_& module, const char* signature, const char* doc, Types<Left...>, Rights, const Call& call) {
+  const auto of_left = [&]<class L>() {
+    Rights::for_each([&]<class R>() {
+      if constexpr (std::invocable<const Call&, const L&, const R&>)
+        function(
+            module, signature, doc, [call](const L& left, const R& right) { return call(left, right); },
+            py::call_guard<py::gil_scoped_release>());
     });
-  });
+  };
+  (of_left.template operator()<Left>(), ...);
+  refuse_others(module, signature);
 }
 
-py::object invert_any(py::handle relation, py::handle prior) {
-  return visit(Relations{}, relation, "invert: expected a relation", [&]<class R>(const R& r) {
-    return visit(Distributions{}, prior, "invert: expected a distribution", [&]<class P>(const P& p) -> py::object {
-      if constexpr (requires { invert(r, p); }) {
-        return inverse_of(unlocked([&] { return invert(r, p); }));
-      } else {
-        refuse("invert", R::from_kind::name, "condition", P::kind::name, "prior");
-      }
-    });
+/// A function of a distribution and an event, which is a sequence of outcomes; for the kinds that have it.
+template <class Call>
+void measure(py::module_& module, const char* signature, const char* doc, const Call& call) {
+  Distributions::for_each([&]<class D>() {
+    using E = Event<typename D::kind>;
+    if constexpr (std::invocable<const Call&, const D&, const E&>)
+      function(module, signature, doc, [call](const D& distribution, const std::vector<Key>& outcomes) {
+        std::vector<std::size_t> members;
+        for (const Key& each : outcomes) members.push_back(index_of(distribution.variable(), each));
+        return call(distribution, E(distribution.variable(), std::span<const std::size_t>(members)));
+      });
   });
+  refuse_others(module, signature);
 }
 
 void bind_transforms(py::module_& module) {
@@ -73,51 +54,102 @@ void bind_transforms(py::module_& module) {
       .def(py::init());
   py::class_<DuboisPradeSandri>(module, "DuboisPradeSandri", "π_i = Σ_j min(p_i, p_j); its inverse is pignistic.")
       .def(py::init());
-  function(module, "to_possibility(p, method, /)",
-           "The possibilities that a method makes of probabilities, row by row.",
-           [](py::handle p, py::handle method_of) {
-             using Methods = Types<RatioScale, DuboisPrade, DuboisPradeSandri>;
-             using Probable = Types<Distribution<Random>, Relation<Random, Random>, Relation<Random, Fuzzy>>;
-             return visit(Methods{}, method_of, "to_possibility: expected a transform", [&](const auto& by) {
-               return visit(Probable{}, p, "to_possibility: expected a random distribution or relation",
-                            [&](const auto& random) { return to_possibility(random, by); });
-             });
-           });
-  function(
-      module, "to_probability(pi, method, /)", "The probabilities that a method makes of possibilities, row by row.",
-      [](py::handle pi, py::handle method_of) {
-        using Methods = Types<RatioScale, DuboisPradeSandri>;
-        using Possible = Types<Distribution<Fuzzy>, Relation<Fuzzy, Random>, Relation<Fuzzy, Fuzzy>>;
-        return visit(Methods{}, method_of, "to_probability: expected an invertible transform", [&](const auto& by) {
-          return visit(Possible{}, pi, "to_probability: expected a fuzzy distribution or relation",
-                       [&](const auto& fuzzy) { return to_probability(fuzzy, by); });
-        });
-      });
-  function(module, "with_fuzzy_condition(relation, /)", "The same rows, the condition read as fuzzy: (49) as (50).",
-           [](py::handle relation) {
-             return visit(MixedRelations{}, relation, "with_fuzzy_condition: expected a random or fuzzy relation",
-                          [](const auto& r) { return with_fuzzy_condition(r); });
-           });
+  using Methods = Types<RatioScale, DuboisPrade, DuboisPradeSandri>;
+  const auto any = Distributions{} + Relations{};
+  verb(module, "to_possibility(p, method, /)", "The possibilities that a method makes of probabilities, row by row.",
+       any, Methods{}, [](const auto& p, const auto& method) -> decltype(to_possibility(p, method)) {
+         return to_possibility(p, method);
+       });
+  verb(module, "to_probability(pi, method, /)", "The probabilities that a method makes of possibilities, row by row.",
+       any, Methods{}, [](const auto& pi, const auto& method) -> decltype(to_probability(pi, method)) {
+         return to_probability(pi, method);
+       });
+}
+
+/// Columns as NumPy has them, −1 for none.
+py::array columns_of(const std::vector<std::size_t>& columns) {
+  std::vector<std::int64_t> with_sign;
+  for (const std::size_t column : columns)
+    with_sign.push_back(column == no_column ? -1 : static_cast<std::int64_t>(column));
+  return array_of(with_sign);
+}
+
+py::object match_any(const Array& none, const Array& weights, const std::string& pattern,
+                     const std::string& permutation, std::size_t max_states) {
+  expect_shape(none, "log_none", -1);
+  expect_shape(weights, "log_weights", none.size(), -1);
+  Choices choices;
+  for (const auto& row : rows_of(weights)) {
+    choices.add_row(none.data()[choices.rows()]);
+    for (std::size_t j = 0; j < row.size(); ++j)
+      if (row[j] != log_zero) choices.add(j, row[j]);
+  }
+  for (const std::string& kind : {pattern, permutation})
+    if (kind != Random::name && kind != Fuzzy::name)
+      throw py::value_error("match: expected 'random' or 'fuzzy', found '" + kind + "'");
+  const auto by = [&]<class Pattern>(Pattern) {
+    return permutation == Fuzzy::name ? &match<Pattern, Fuzzy> : &match<Pattern, Random>;
+  };
+  const auto matching = pattern == Fuzzy::name ? by(Fuzzy{}) : by(Random{});
+  const Matching found = unlocked([&] { return matching(choices, {max_states, true}); });
+  Array log_none = unknown(none.size()), log_marginals = unknown(weights.shape(0), weights.shape(1));
+  std::fill_n(log_marginals.mutable_data(), log_marginals.size(), log_zero);
+  for (std::size_t i = 0; i < found.marginals.rows(); ++i) {
+    log_none.mutable_at(i) = found.marginals.none(i);
+    const ListOfEntries entries = found.marginals.entries(i);
+    for (std::size_t k = 0; k < entries.columns.size(); ++k)
+      log_marginals.mutable_at(i, entries.columns[k]) = entries.values[k];
+  }
+  return record(py::arg("log_total") = found.log_total, py::arg("log_best") = found.log_best,
+                py::arg("exact") = found.exact, py::arg("log_marginals") = log_marginals,
+                py::arg("log_none") = log_none, py::arg("winners") = columns_of(found.winners),
+                py::arg("best") = columns_of(found.best));
 }
 
 }  // namespace
 
 void bind_verbs(py::module_& module) {
-  function(
-      module, "compose(left, right, /)",
-      "`left` after `right`: the variable between them is eliminated by the ⊕ of its kind, (5)–(7), (15)–(18).\n\n"
-      "Of one kind the result is a relation or distribution, else only induced. A likelihood is carried back, (42).",
-      &compose_any);
-  function(module, "update(prior, likelihood, /)",
-           "Posterior: the prior times the likelihood, divided by the ⊕ of the prior's kind, (8), (19), (20).\n\n"
-           "ValueError if the evidence excludes every outcome that the prior left.",
-           &update_any);
-  function(
-      module, "invert(relation, prior, /)",
-      "The relation read backwards under a prior of its condition, (43), (46), (52), (54).\n\n"
-      "Returns Inverse(relation, unreachable): rows of outcomes that nothing reaches are uninformative, and listed.",
-      &invert_any);
+  const auto conditionals = Relations{} + induced(Relations{});
+  verb(module, "compose(left, right, /)",
+       "`left` after `right`: the variable between them is eliminated by the ⊕ of its kind, (5)–(7), (15)–(18).\n\n"
+       "Of one kind the result is a relation or distribution, else only induced. A likelihood is carried back, (42).",
+       conditionals + Likelihoods{}, conditionals + Distributions{} + induced(Distributions{}),
+       [](const auto& left, const auto& right) -> decltype(compose(left, right)) { return compose(left, right); });
+  verb(module, "update(prior, likelihood, /)",
+       "Posterior: the prior times the likelihood, divided by the ⊕ of the prior's kind, (8), (19), (20).\n\n"
+       "ValueError if the evidence excludes every outcome that the prior left.",
+       Distributions{}, Likelihoods{},
+       [](const auto& prior, const auto& likelihood) -> decltype(update(prior, likelihood)) {
+         return update(prior, likelihood);
+       });
+  verb(module, "invert(relation, prior, /)",
+       "The relation read backwards under a prior of its condition, (43), (46), (52), (54).\n\n"
+       "Returns (relation, unreachable): rows of outcomes that nothing reaches are uninformative, and listed.",
+       Relations{}, Distributions{},
+       [](const auto& relation,
+          const auto& prior) -> decltype(std::pair(invert(relation, prior).relation, std::vector<std::size_t>())) {
+         auto inverse = invert(relation, prior);
+         return {std::move(inverse.relation), std::move(inverse.unreachable)};
+       });
+  measure(module, "probability(distribution, outcomes, /)", "P(A) = Σ p(x) over the event A.",
+          [](const auto& d, const auto& e) -> decltype(probability(d, e)) { return probability(d, e); });
+  measure(module, "possibility(distribution, outcomes, /)", "Π(A) = max π(x) over the event A, Definition 2.4.",
+          [](const auto& d, const auto& e) -> decltype(possibility(d, e)) { return possibility(d, e); });
+  measure(module, "necessity(distribution, outcomes, /)", "N(A) = 1 − Π(not A): how far the event A is implied.",
+          [](const auto& d, const auto& e) -> decltype(necessity(d, e)) { return necessity(d, e); });
+  measure(module, "given(distribution, outcomes, /)",
+          "The distribution when an event has come true; ValueError if its measure is zero.",
+          [](const auto& d, const auto& e) -> decltype(given(d, e)) { return given(d, e); });
   bind_transforms(module);
+  function(
+      module, "match(log_none, log_weights, pattern, permutation, max_states=100000)",
+      "Marginals of all events that give each row a column or none, and no column twice.\n\n"
+      "Weights are of no column, `log_none` (rows,), and of each, `log_weights` (rows, columns); −inf excludes.\n"
+      "Kinds of pattern and permutation: random, random is JPDA; random, fuzzy is JPDA*; fuzzy, fuzzy is GNN.\n"
+      "Returns log_marginals (rows, columns), log_none (rows,), winners and best (rows,), −1 for none; log_total of\n"
+      "all events, log_best; and exact, which is false if a cluster had too many states.",
+      &match_any, py::arg("log_none"), py::arg("log_weights"), py::arg("pattern"), py::arg("permutation"),
+      py::arg("max_states") = MatchingOptions{}.max_states);
 }
 
 }  // namespace sigmax::python

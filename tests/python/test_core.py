@@ -1,9 +1,7 @@
 """Core: kinds, tables and verbs, against restatements in NumPy and by enumeration."""
 
-import copy
 import gc
 import itertools
-import pickle
 import threading
 
 import numpy as np
@@ -59,10 +57,10 @@ def test_update_and_invert_divide_by_the_kind_of_the_prior(to, middle):
     t, m = variable_of[to]("t", 3), variable_of[middle]("m", 4)
     relation, prior = sx.Relation(t, m, drawn(to, 4, 3)), sx.Distribution(m, drawn(middle, 4, seed=3))
     joint = (relation.table * prior.values[:, None]).T
-    inverse = sx.invert(relation, prior)
-    np.testing.assert_allclose(inverse.relation.table, joint / plus[middle](joint, axis=1, keepdims=True), rtol=1e-13)
-    assert inverse.unreachable == []
-    np.testing.assert_allclose(sx.update(prior, relation.likelihood(2)).values, inverse.relation.given(2).values, rtol=1e-13)
+    inverse, unreachable = sx.invert(relation, prior)
+    np.testing.assert_allclose(inverse.table, joint / plus[middle](joint, axis=1, keepdims=True), rtol=1e-13)
+    assert unreachable == []
+    np.testing.assert_allclose(sx.update(prior, relation.likelihood(2)).values, inverse.given(2).values, rtol=1e-13)
 
 
 def test_logarithms_of_likelihoods_do_not_underflow():
@@ -74,12 +72,12 @@ def test_logarithms_of_likelihoods_do_not_underflow():
 def test_a_hybrid_distribution_is_one_in_one_order_only():
     joint = sx.HybridDistribution(speed_given_mood, sx.uninformative(mood))  # (12)
     np.testing.assert_array_equal(joint.table, [[0.9, 0.1], [0.3, 0.7]])
-    assert (joint.total(), joint.beta()) == (1.0, pytest.approx(0.9 + 0.7))
+    assert joint.beta() == pytest.approx(0.9 + 0.7)
     np.testing.assert_allclose(joint.inner_marginal().values, [0.9, 0.7])
-    back = joint.outer_given_inner().relation
+    back, unreachable = joint.outer_given_inner()
     np.testing.assert_allclose(back.table, [[1, 1 / 3], [1 / 7, 1]])
-    np.testing.assert_allclose(sx.HybridDistribution(back, joint.inner_marginal()).table, joint.table)  # (14)
-    assert sx.HybridDistribution(mood, speed, joint.table).outer_marginal() == sx.uninformative(mood)
+    np.testing.assert_allclose(back.table * joint.inner_marginal().values[:, None], joint.table.T)  # (14)
+    assert unreachable == [] and sx.HybridDistribution(mood_given_age, looks).beta() == 1.0
 
 
 def test_transforms():
@@ -88,23 +86,18 @@ def test_transforms():
     possible = sx.to_possibility(weather, sx.DuboisPradeSandri())
     np.testing.assert_allclose(possible.values, [1, 0.3 + 0.3 + 0.1, 0.3])
     np.testing.assert_allclose(sx.to_probability(possible, sx.DuboisPradeSandri()).values, weather.values)
-    fuzzy = sx.with_fuzzy_condition(sx.to_possibility(sx.Relation(speed, speed, [[0.8, 0.2], [0.1, 0.9]]), sx.RatioScale()))
+    fuzzy = sx.to_possibility(sx.Relation(speed, speed, [[0.8, 0.2], [0.1, 0.9]]), sx.RatioScale())
     np.testing.assert_allclose(fuzzy.table, [[1, 0.25], [1 / 9, 1]])
-    assert type(fuzzy) is sx.FuzzyGivenFuzzy and fuzzy.to == sx.as_fuzzy(speed) != speed
+    assert type(fuzzy) is sx.FuzzyGivenRandom and fuzzy.to == sx.FuzzyVariable("speed", speed.labels) != speed
 
 
 def test_measures_of_every_event():
     for chosen in itertools.product([False, True], repeat=3):
-        members = np.flatnonzero(chosen)
-        event = sx.Event(age, members)
-        possible = max(looks.values[members], default=0.0)
-        assert sx.possibility(looks, event) == possible == pytest.approx(1 - sx.necessity(looks, ~event))
-        of_weather = sx.Event(weather.variable, members)
-        assert sx.probability(weather, of_weather) == pytest.approx(weather.values[members].sum())
-    young, middle = sx.Event(age, ["young"]), sx.Event(age, ["middle"])
-    assert "young" in (young | middle) and "old" not in (young | middle) and (young & middle) == sx.Event(age, [])
-    np.testing.assert_allclose(sx.given(looks, ~middle).values, [1, 0, 0.8])
-    assert sx.compatibility([1.0, 0.5], [1.0, 0.0], [1.0, 2.0]) == 0.5
+        event, others = np.flatnonzero(chosen), np.flatnonzero(np.logical_not(chosen))
+        possible = max(looks.values[event], default=0.0)
+        assert sx.possibility(looks, event) == possible == pytest.approx(1 - sx.necessity(looks, others))
+        assert sx.probability(weather, event) == pytest.approx(weather.values[event].sum())
+    np.testing.assert_allclose(sx.given(looks, ["young", "old"]).values, [1, 0, 0.8])
 
 
 def patterns_of(none, weights):
@@ -135,33 +128,10 @@ def test_matching_eliminates_the_permutation_then_the_pattern(pattern, permutati
         matching = sx.match(np.log(none), np.log(weights), pattern, permutation)
     marginals = [[total(lambda event: event[r] == c) for c in range(-1, 3)] for r in range(3)]
     marginals /= plus[pattern](marginals, axis=1, keepdims=True)
-    data, indices, ends = matching.log_marginals
-    np.testing.assert_array_equal(ends, [0, 3, 6, 9])
-    np.testing.assert_array_equal(indices, [0, 1, 2] * 3)
-    np.testing.assert_allclose(np.exp(data).reshape(3, 3), marginals[:, 1:], rtol=1e-12, atol=1e-300)
+    np.testing.assert_allclose(np.exp(matching.log_marginals), marginals[:, 1:], rtol=1e-12, atol=1e-300)
     np.testing.assert_allclose(np.exp(matching.log_none), marginals[:, 0], rtol=1e-12)
     assert matching.log_total == pytest.approx(np.log(total(lambda event: True)))
     assert (tuple(matching.best), matching.log_best) == (best, pytest.approx(np.log(weight))) and matching.exact
-
-
-def test_choices_are_arrays_lists_or_sparse():
-    sparse = pytest.importorskip("scipy.sparse")
-    dense = sx.match([-1.0, -1.0], [[0.5, -np.inf], [1.0, 2.0]], "random", "random")
-    lists = sx.match([-1.0, -1.0], [{0: 0.5}, {0: 1.0, 1: 2.0}], "random", "random")
-    csr = sx.match([-1.0, -1.0], sparse.csr_matrix([[0.5, 0], [1.0, 2.0]]), "random", "random")
-    assert dense.log_total == lists.log_total == csr.log_total
-    assert sparse.csr_matrix(csr.log_marginals).shape == (2, 2)
-
-
-def test_sparse_relations_stay_sparse():
-    sparse = pytest.importorskip("scipy.sparse")
-    cell = sx.RandomVariable("cell", 1000)
-    shift = sx.Relation(cell, cell, sparse.eye(1000, k=1) + sparse.csr_matrix(([1.0], ([999], [0])), shape=(1000, 1000)))
-    twice = sx.compose(shift, shift)
-    assert twice["998", "0"] == twice[0, 2] == 1.0
-    with pytest.raises(ValueError, match="'cell' given 'cell'"):
-        twice.table
-    np.testing.assert_array_equal(twice.dense().table, np.roll(np.eye(1000), 2, axis=1))
 
 
 def test_values_are_views_that_outlive_their_owner():
@@ -192,33 +162,28 @@ def test_threads_compose_at_once():
     assert all(one == expected for one in found)
 
 
-@pytest.mark.parametrize("value", [age, sx.RandomVariable("n", 5), looks, mood_given_age, looks.variable], ids=repr)
-def test_values_are_pickled_copied_and_compared(value):
-    assert pickle.loads(pickle.dumps(value)) == copy.deepcopy(value) == value
-
-
 def test_rows_are_sequences():
     assert len(looks) == 3 and list(looks) == [0.5, 1.0, 0.4] and looks["old"] == looks[2] == 0.4
     np.testing.assert_array_equal(np.asarray(looks), looks.values)
     assert repr(looks) == "<FuzzyDistribution age [0.5, 1.0, 0.4]>"
-    assert (age.kind, age.size, age.labels, age.index_of("old")) == ("fuzzy", 3, ["young", "middle", "old"], 2)
+    assert (age.kind, len(age), age.labels, age.index_of("old")) == ("fuzzy", 3, ["young", "middle", "old"], 2)
     np.testing.assert_allclose(sx.normalized(mood, age, [[3, 1], [2, 2], [0, 7]]).table, [[1, 1 / 3], [1, 1], [0, 1]])
     np.testing.assert_allclose(sx.normalized(weather.variable, [6, 3, 1]).values, weather.values)
     assert sx.most_likely(weather) == "dry"
 
 
 refusals = [
-    (TypeError, "update: a random prior and a fuzzy likelihood", lambda: sx.update(weather, mood_given_age.likelihood(0))),
-    (TypeError, "update: a fuzzy prior and an ordinal likelihood", lambda: sx.update(looks, sx.Likelihood(rank, [1, 0]))),
-    (TypeError, "compose: a fuzzy condition .* and a random variable", lambda: sx.compose(mood_given_age, speed_given_mood)),
-    (TypeError, "invert: a fuzzy condition and a random prior", lambda: sx.invert(mood_given_age, weather)),
-    (TypeError, "necessity: a fuzzy distribution and a random event", lambda: sx.necessity(looks, sx.Event(speed, [0]))),
-    (TypeError, "probability: not defined for .* fuzzy", lambda: sx.probability(looks, sx.Event(age, [0]))),
-    (TypeError, r"Relation: .*found \(FuzzyVariable, OrdinalVariable\)", lambda: sx.Relation(mood, rank, [[1, 1]])),
+    (TypeError, r"update: .*found \(RandomDistribution, FuzzyLikelihood\)", lambda: sx.update(weather, mood_given_age.likelihood(0))),
+    (TypeError, r"update: .*found \(FuzzyDistribution, OrdinalLikelihood\)", lambda: sx.update(looks, sx.Likelihood(rank, [1, 0]))),
+    (TypeError, r"compose: .*found \(FuzzyGivenFuzzy, RandomGivenFuzzy\)", lambda: sx.compose(mood_given_age, speed_given_mood)),
+    (TypeError, r"invert: .*found \(FuzzyGivenFuzzy, RandomDistribution\)", lambda: sx.invert(mood_given_age, weather)),
+    (TypeError, r"compose: .*found \(FuzzyGivenFuzzy, RandomDistribution\)", lambda: sx.HybridDistribution(mood_given_age, weather)),
+    (TypeError, r"probability: .*found \(FuzzyDistribution, list\)", lambda: sx.probability(looks, [0])),
+    (TypeError, r"Relation: .*found \(FuzzyVariable, OrdinalVariable, list\)", lambda: sx.Relation(mood, rank, [[1, 1]])),
     (TypeError, "FuzzyVariable(.|\n)*RandomVariable", lambda: sx.FuzzyDistribution(speed, [1, 1])),
-    (TypeError, "to_possibility: .*, found FuzzyDistribution", lambda: sx.to_possibility(looks, sx.RatioScale())),
-    (TypeError, "update: expected a distribution, found int", lambda: sx.update(3, looks)),
-    (TypeError, "label or an index, found float", lambda: looks[1.5]),
+    (TypeError, r"to_possibility: .*found \(FuzzyDistribution, RatioScale\)", lambda: sx.to_possibility(looks, sx.RatioScale())),
+    (TypeError, r"update: .*found \(int, FuzzyDistribution\)", lambda: sx.update(3, looks)),
+    (TypeError, "1.5", lambda: looks[1.5]),
     (ValueError, "'mood' given age = 'old' is 0.9, not 1", lambda: sx.Relation(mood, age, [[0.3, 1], [1, 0.6], [0.9, 0.2]])),
     (ValueError, "'age' at outcome 'middle' is nan", lambda: sx.Distribution(age, [1, np.nan, 0])),
     (ValueError, "needs 3 rows, but 2", lambda: sx.Relation(mood, age, [[0.3, 1], [1, 0.6]])),
