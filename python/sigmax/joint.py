@@ -15,7 +15,7 @@ from ._sigmax import Distribution, InducedDistribution, Relation, compose, inver
 class HybridDistribution:
     """The joint of a relation and a distribution of its condition, of any kinds, (9), (12), (13).
 
-    ⊕ over the condition of ⊕ over the other variable is one. In the other order it is beta, (14).
+    ⊕ over the condition of ⊕ over the other variable is one. In the other order it is β of the inner marginal, (14).
     """
 
     conditional: Relation[Any, Any]
@@ -32,10 +32,6 @@ class HybridDistribution:
     def inner_marginal(self) -> Distribution[Any] | InducedDistribution[Any]:
         """What is left when the condition is eliminated: only induced if its kind differs, (15)."""
         return compose(self.conditional, self.marginal)
-
-    def beta(self) -> float:
-        """The normalisation factor of (14) and (16)."""
-        return float(getattr(self.inner_marginal(), "beta", 1.0))
 
     def outer_given_inner(self) -> tuple[Relation[Any, Any], list[int]]:
         """The other conditional, (14), and the outcomes that nothing reaches, as by invert."""

@@ -57,16 +57,15 @@ class SigmaMaxClassifier(ClassifierMixin, BaseEstimator):
 
     def explain(self, x):
         """Returns the Explanation of one row, (n,) or (1, n)."""
-        cells = self._cells([x] if np.ndim(x) == 1 else x)
-        best = np.argsort(-self._of_cells(cells)[0], kind="stable")[[0, min(1, len(self.classes_) - 1)]]
-        (row,), contributions = cells, []
-        for (name, cuts, labels, _), logs, cell in zip(self._features, self._logs, row):
+        x, contributions = [x] if np.ndim(x) == 1 else x, []
+        best = np.argsort(-self._log_degrees(x)[0], kind="stable")[[0, min(1, len(self.classes_) - 1)]]
+        symbol = "p" if self.features == "random" else "π"
+        for (name, labels, _), cuts, logs, cell in zip(self._features, self._cuts, self._logs, self._cells(x)[0]):
             if not np.isnan(cell):
                 found = np.searchsorted(cuts, cell, side="right")
-                of_both = logs[found, best]
-                equation = f"({name} = {labels[found]}|class = {self.classes_[best[0]]}) = {np.exp(of_both[0]):.4g}"
-                symbol = "p" if self.features == "random" else "π"
-                contributions.append(Contribution(name, labels[found], _log_ratio(*of_both), symbol + equation))
+                log, rival = logs[found, best]
+                equation = f"{symbol}({name} = {labels[found]}|class = {self.classes_[best[0]]}) = {np.exp(log):.4g}"
+                contributions.append(Contribution(name, labels[found], _log_ratio(log, rival), equation))
         return Explanation(*self.classes_[best], _log_ratio(*self._log_prior[best]), contributions)
 
     def _validated(self, X, **options):
@@ -76,10 +75,8 @@ class SigmaMaxClassifier(ClassifierMixin, BaseEstimator):
         return self._validate_data(X, force_all_finite="allow-nan", **options)
 
     def _log_degrees(self, X):
-        return self._of_cells(self._cells(X))
-
-    def _of_cells(self, cells):
-        return _sigmax._log_degrees(self._log_prior, self._logs, [cuts for _, cuts, *_ in self._features], cells)
+        cells = self._cells(X)
+        return _sigmax._log_degrees(self._log_prior, self._logs, self._cuts, cells)
 
     def _cells(self, X):
         validation.check_is_fitted(self)
@@ -89,10 +86,12 @@ class SigmaMaxClassifier(ClassifierMixin, BaseEstimator):
         if X.dtype.kind not in "OUS":
             return X
         cells = np.full(X.shape, np.nan)
-        for i, (_, _, labels, words) in enumerate(self._features):
-            texts = X[:, i].astype(str if words else float)
-            found = np.minimum(np.searchsorted(labels, texts), len(labels) - 1) if words else texts
-            cells[:, i] = np.where(np.asarray(labels)[found] == texts, found, np.nan) if words else texts
+        for i, (_, labels, words) in enumerate(self._features):
+            column = X[:, i].astype(str if words else float)
+            if words:
+                found = np.minimum(np.searchsorted(labels, column), len(labels) - 1)
+                column = np.where(np.asarray(labels)[found] == column, found, np.nan)
+            cells[:, i] = column
         return cells
 
     def _learn(self, X, y, weights, first):
@@ -103,32 +102,37 @@ class SigmaMaxClassifier(ClassifierMixin, BaseEstimator):
             raise ValueError(f"y has classes that are not in {self.classes_}")
         if first:
             names = getattr(self, "feature_names_in_", [f"x{i}" for i in range(X.shape[1])])
-            self._features = [(name, *_bins(column, self.bins)) for name, column in zip(names, X.T)]
+            self._cuts, *labels_and_words = zip(*[_bins(column, self.bins) for column in X.T])
+            self._features = list(zip(names, *labels_and_words))
             self.counts_ = 0.0
-        cuts = [cuts for _, cuts, *_ in self._features]
-        self.counts_ = self.counts_ + _sigmax._count_rows(len(self.classes_), cuts, labels, self._numbers(X), weights)
+        readings = max(map(len, self._cuts)) + 2  # the last if one is missing
+        self.counts_ = self.counts_ + _sigmax._count_rows(
+            len(self.classes_), readings, self._cuts, labels, self._numbers(X), weights)
         self._make_logs()
         return self
 
     def _make_logs(self):
         """Logarithms of the prior (classes,), and of each reading (columns, readings, classes): zero where one is missing."""
-        kinds = [_choice(self, name, {"random": False, "fuzzy": True}) for name in ("pattern", "features")]
-        transform = _choice(self, "transformation", {"ratio": _sigmax.RatioScale, "dubois_prade": _sigmax.DuboisPrade})()
+        kinds = ["random", "fuzzy"]
+        for name, words in ("pattern", kinds), ("features", kinds), ("transformation", ["ratio", "dubois_prade"]):
+            if getattr(self, name) not in words:
+                raise ValueError(f"{name}: expected {' or '.join(map(repr, words))}, found {getattr(self, name)!r}")
+        transform = _sigmax.RatioScale() if self.transformation == "ratio" else _sigmax.DuboisPrade()
         if not self.smoothing >= 0:
             raise ValueError(f"smoothing: expected a number that is not negative, found {self.smoothing}")
 
-        def learned(fuzzy, *variables_and_weights):
+        def learned(kind, *variables_and_weights):
             by_sums = _sigmax.normalized(*variables_and_weights)
-            return _sigmax.to_possibility(by_sums, transform) if fuzzy else by_sums
+            return by_sums if kind == "random" else _sigmax.to_possibility(by_sums, transform)
 
         pattern = _sigmax.RandomVariable("class", [str(label) for label in self.classes_])
         rows = self.counts_[0].sum(axis=1) if self.fit_prior else np.ones(len(pattern))
         self._logs = np.zeros(self.counts_.transpose(0, 2, 1).shape)
         with np.errstate(divide="ignore"):
-            self._log_prior = np.log(learned(kinds[0], pattern, rows).values)
-            for (name, _, labels, _), counts, logs in zip(self._features, self.counts_, self._logs):
-                weights = counts[:, : len(labels)] + self.smoothing
-                logs[: len(labels)] = np.log(learned(kinds[1], _sigmax.RandomVariable(name, labels), pattern, weights).table.T)
+            self._log_prior = np.log(learned(self.pattern, pattern, rows).values)
+            for (name, labels, _), counts, logs in zip(self._features, self.counts_, self._logs):
+                feature, weights = _sigmax.RandomVariable(name, labels), counts[:, : len(labels)] + self.smoothing
+                logs[: len(labels)] = np.log(learned(self.features, feature, pattern, weights).table.T)
 
     def _more_tags(self):
         return {"allow_nan": True, "X_types": ["2darray", "string"]}
@@ -137,13 +141,6 @@ class SigmaMaxClassifier(ClassifierMixin, BaseEstimator):
         tags = super().__sklearn_tags__()
         tags.input_tags.allow_nan = tags.input_tags.string = True
         return tags
-
-
-def _choice(estimator, name, choices):
-    value = getattr(estimator, name)
-    if value not in choices:
-        raise ValueError(f"{name}: expected {' or '.join(map(repr, choices))}, found {value!r}")
-    return choices[value]
 
 
 def _log_ratio(log, other):

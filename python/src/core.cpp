@@ -19,33 +19,32 @@ void bind_variables(py::module_& module) {
     for (std::size_t i = 0; i < labels.size(); ++i) labels[i] = self.label(i);
     return labels;
   });
-  method(base, "index_of", "Index of the outcome of this label or index.", &index_of);
   base.def("__repr__", [](const py::object& self) {
     return py::str("{}({!r}, {})").format(class_name(self), self.attr("name"), self.attr("labels"));
   });
-  Variables::for_each([&]<class V>() {
-    py::class_<V, Outcomes> type(module, (capital(V::kind::name) + "Variable").c_str(),
+  Kinds::for_each([&]<class Kind>() {
+    using V = Variable<Kind>;
+    py::class_<V, Outcomes> type(module, (capital(Kind::name) + "Variable").c_str(),
                                  "A variable of this kind: its name, and its labels or how many outcomes it has.");
     type.def(py::init<std::string, std::size_t>(), py::arg("name"), py::arg("outcomes"));
     type.def(py::init<std::string, std::vector<std::string>>(), py::arg("name"), py::arg("outcomes"));
     type.def(py::self == py::self);
-    type.attr("kind") = V::kind::name;
+    type.attr("kind") = Kind::name;
   });
 }
 
-/// A number for each outcome of a variable: a distribution, a likelihood, or what is only induced.
+/// A number for each outcome of a variable: a distribution, a likelihood, or what is only induced. The class has a name
+/// in the scope, if there is one.
 template <class T>
-py::class_<T> bind_row(py::module_& module, const py::object& base, const std::string& family) {
+py::class_<T> bind_row(py::handle scope, const py::object& base, const std::string& name) {
   using V = Variable<typename T::kind>;
-  const auto at = family.find("Induced") == 0 ? std::string("Induced").size() : 0;
-  py::class_<T> type(module, std::string(family).insert(at, capital(T::kind::name)).c_str(), base);
+  py::class_<T> type(scope, name.c_str(), base);
   type.def_property_readonly("variable", [](const T& self) { return self.variable(); });
   type.def("__len__", [](const T& self) { return self.variable().size(); });
   method(type, "__getitem__", "The number of one outcome, by its label or index.",
          [](const T& self, const Key& key) { return self[index_of(self.variable(), key)]; });
   type.def("__repr__", [](const py::object& self) {
-    const py::list shown = self.attr("values").attr("tolist")();
-    return py::str("<{} {} {}>").format(class_name(self), self.attr("variable").attr("name"), shown);
+    return py::str("<{} {} {}>").format(class_name(self), self.attr("variable").attr("name"), py::list(self));
   });
   property(type, "values", "Numbers in the order of the outcomes, (n,): a view, or a copy of likelihoods.",
            [](const py::object& self) {
@@ -75,14 +74,13 @@ void bind_rows(py::module_& module) {
   Kinds::for_each([&]<class Kind>() {
     using V = Variable<Kind>;
     using D = Distribution<Kind>;
-    const auto variable = py::make_tuple(py::type::of<V>());
-    distribution_of[variable] = bind_row<D>(module, distributions, "Distribution").def(py::self == py::self);
-
-    auto unnormalised = bind_row<Induced<D>>(module, induced, "InducedDistribution");
-    property(unnormalised, "beta", "The normalisation factor β of (16).", &Induced<D>::beta);
-
     using L = Likelihood<Kind>;
-    auto likelihood = bind_row<L>(module, likelihoods, "Likelihood");
+    const std::string kind = capital(Kind::name);
+    const auto variable = py::make_tuple(py::type::of<V>());
+    distribution_of[variable] = bind_row<D>(module, distributions, kind + "Distribution").def(py::self == py::self);
+    bind_row<Induced<D>>({}, induced, "Induced" + kind + "Distribution")
+        .def_property_readonly("beta", &Induced<D>::beta, "The normalisation factor β of (16).");
+    auto likelihood = bind_row<L>(module, likelihoods, kind + "Likelihood");
     likelihood_of[variable] = likelihood;
     if constexpr (L::has_logs) {
       property(likelihood, "logs", "Logarithms, (n,), −inf for what is excluded.", [](const py::object& self) {
@@ -108,9 +106,9 @@ void bind_rows(py::module_& module) {
 
 /// A row for each outcome of the condition: a relation, or what is only induced.
 template <class T>
-py::class_<T> bind_conditional(py::module_& module, const py::object& base, const std::string& prefix) {
+py::class_<T> bind_conditional(py::handle scope, const py::object& base, const std::string& prefix) {
   const std::string name = prefix + capital(T::to_kind::name) + "Given" + capital(T::from_kind::name);
-  py::class_<T> type(module, name.c_str(), base);
+  py::class_<T> type(scope, name.c_str(), base);
   type.def_property_readonly("to", [](const T& self) { return self.to(); });
   type.def_property_readonly("from_", [](const T& self) { return self.from(); });
   property(type, "table", "Numbers (from_, to): a read-only view that keeps its owner.", [](const py::object& self) {
@@ -125,10 +123,6 @@ py::class_<T> bind_conditional(py::module_& module, const py::object& base, cons
          [](const T& self, const Key& to) { return self.likelihood(index_of(self.to(), to)); });
   method(type, "normalized", "The distribution reading of (17), (18): each row divided by its β.",
          [](const T& self) { return self.normalized(); });
-  type.def("__repr__", [](const py::object& self) {
-    const py::str text("<{} {} given {}>");
-    return text.format(class_name(self), self.attr("to").attr("name"), self.attr("from_").attr("name"));
-  });
   return type;
 }
 
@@ -150,9 +144,9 @@ void bind_relations(py::module_& module) {
     method(type, "given", "The distribution of `to` when `from_` has this outcome.",
            [](const R& self, const Key& from) { return self.given(index_of(self.from(), from)); });
 
-    auto unnormalised = bind_conditional<Induced<R>>(module, induced, "Induced");
-    property(unnormalised, "betas", "The normalisation factor β of each row, (from_,).",
-             [](const Induced<R>& self) { return array_of(self.betas()); });
+    bind_conditional<Induced<R>>({}, induced, "Induced")
+        .def_property_readonly(
+            "betas", [](const Induced<R>& self) { return array_of(self.betas()); }, "The β of each row, (from_,).");
 
     module.def("normalized", [](const To& to, const From& from, const Array& weights) {
       return normalized(to, from, rows_of(weights));

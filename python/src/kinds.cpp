@@ -14,8 +14,8 @@ std::string class_name(py::handle object) { return py::str(py::type::handle_of(o
 
 void refuse(const std::string& verb, std::string_view kind, const std::string& argument, std::string_view other_kind,
             const std::string& other_argument) {
-  const auto named = [](std::string_view name) { return (name == Ordinal::name ? "an " : "a ") + std::string(name); };
-  throw py::type_error(verb + ": " + named(kind) + " " + argument + " and " + named(other_kind) + " " + other_argument);
+  throw py::type_error(verb + ": a " + std::string(kind) + " " + argument + " and a " + std::string(other_kind) + " " +
+                       other_argument);
 }
 
 void refuse(const std::string& name, const py::args& arguments) {

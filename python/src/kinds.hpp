@@ -31,7 +31,6 @@ constexpr Types<Induced<T>...> induced(Types<T...>) {
 }
 
 using Kinds = Types<Random, Fuzzy, Ordinal>;
-using Variables = Types<Variable<Random>, Variable<Fuzzy>, Variable<Ordinal>>;
 using Distributions = Types<Distribution<Random>, Distribution<Fuzzy>, Distribution<Ordinal>>;
 using Likelihoods = Types<Likelihood<Random>, Likelihood<Fuzzy>, Likelihood<Ordinal>>;
 

@@ -4,23 +4,13 @@
 
 namespace py = pybind11;
 
-namespace {
-
-/// pybind11 before 2.12 reads the memory of an array as NumPy 1 lays it out; with NumPy 2 that would crash.
-void refuse_unknown_numpy() {
-  const auto version = py::module_::import("numpy").attr("__version__").cast<std::string>();
-  if (PYBIND11_VERSION_HEX < 0x020C0000 && std::stoi(version) >= 2) {
-    const std::string text = "sigmax was built with pybind11 " + std::to_string(PYBIND11_VERSION_MAJOR) + "." +
-                             std::to_string(PYBIND11_VERSION_MINOR) + ", which needs NumPy 1, but found NumPy " +
-                             version + "; install 'numpy<2', or build sigmax with pybind11 2.12 or later";
-    throw py::import_error(text);
-  }
-}
-
-}  // namespace
-
 PYBIND11_MODULE(_sigmax, module) {
-  refuse_unknown_numpy();
+  // pybind11 before 2.12 reads the memory of an array as NumPy 1 lays it out; with NumPy 2 that would crash.
+  const auto version = py::module_::import("numpy").attr("__version__").cast<std::string>();
+  if (PYBIND11_VERSION_HEX < 0x020C0000 && std::stoi(version) >= 2)
+    throw py::import_error("sigmax was built with pybind11 " + std::to_string(PYBIND11_VERSION_MAJOR) + "." +
+                           std::to_string(PYBIND11_VERSION_MINOR) + ", which needs NumPy 1, but found NumPy " +
+                           version + "; install 'numpy<2', or build sigmax with pybind11 2.12 or later");
   py::options options;
   options.disable_function_signatures();  // the stubs have them
   module.doc() = "sigma-max inference: probability and possibility as one calculus";

@@ -27,17 +27,11 @@ std::size_t reading(const std::vector<double>& cuts, double cell) {
   return bin;
 }
 
-std::size_t most_readings(const Cuts& cuts) {
-  std::size_t most = 0;
-  for (const auto& column : cuts) most = std::max(most, column.size() + 2);
-  return most;
-}
-
 /// Weighted counts (columns, classes, readings) of rows with labels.
-Array count_rows(std::size_t classes, const Cuts& cuts, const Array& labels, const Array& rows, const Array& weights) {
+Array count_rows(std::size_t classes, std::size_t readings, const Cuts& cuts, const Array& labels, const Array& rows,
+                 const Array& weights) {
   expect_shape(rows, "rows", labels.size(), cuts.size());
   expect_shape(weights, "weights", labels.size());
-  const std::size_t readings = most_readings(cuts);
   Array counts({cuts.size(), classes, readings});
   std::fill_n(counts.mutable_data(), counts.size(), 0.0);
   const double* cell = rows.data();
@@ -54,9 +48,8 @@ Array count_rows(std::size_t classes, const Cuts& cuts, const Array& labels, con
 /// Logarithms (N, classes) of belief less the greatest, by those of a prior (classes,) and of each reading, (columns,
 /// readings, classes); of a row that excludes all, those of the prior.
 Array log_degrees(const Array& prior, const Array& logs, const Cuts& cuts, const Array& rows) {
-  const py::ssize_t classes = prior.size(), readings = static_cast<py::ssize_t>(most_readings(cuts));
+  const py::ssize_t classes = prior.size(), readings = logs.shape(1);
   expect_shape(rows, "rows", -1, cuts.size());
-  expect_shape(logs, "logs", cuts.size(), readings, classes);
   Array result({rows.shape(0), classes});
   const double *cell = rows.data(), *const table = logs.data();
   double *row = result.mutable_data(), *const end = row + result.size();

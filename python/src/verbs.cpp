@@ -18,17 +18,16 @@ void refuse_others(py::module_& module, const std::string& signature) {
 }
 
 /// A function of two objects, of all types for which it compiles. Other threads run meanwhile.
-template <class... Left, class Rights, class Call>
-void verb(py::module_& module, const char* signature, const char* doc, Types<Left...>, Rights, const Call& call) {
-  const auto of_left = [&]<class L>() {
+template <class Lefts, class Rights, class Call>
+void verb(py::module_& module, const char* signature, const char* doc, Lefts, Rights, const Call& call) {
+  Lefts::for_each([&]<class L>() {
     Rights::for_each([&]<class R>() {
       if constexpr (std::invocable<const Call&, const L&, const R&>)
         function(
             module, signature, doc, [call](const L& left, const R& right) { return call(left, right); },
             py::call_guard<py::gil_scoped_release>());
     });
-  };
-  (of_left.template operator()<Left>(), ...);
+  });
   refuse_others(module, signature);
 }
 
@@ -45,33 +44,6 @@ void measure(py::module_& module, const char* signature, const char* doc, const 
       });
   });
   refuse_others(module, signature);
-}
-
-void bind_transforms(py::module_& module) {
-  py::class_<RatioScale>(module, "RatioScale", "Klir's ratio scale: π ∝ p^exponent, (34), and its inverse, (35).")
-      .def(py::init([](double exponent) { return RatioScale{exponent}; }), py::arg("exponent") = 1.0);
-  py::class_<DuboisPrade>(module, "DuboisPrade", "π_i = Σ {p_j : p_j ≤ p_i}: the most specific that is consistent.")
-      .def(py::init());
-  py::class_<DuboisPradeSandri>(module, "DuboisPradeSandri", "π_i = Σ_j min(p_i, p_j); its inverse is pignistic.")
-      .def(py::init());
-  using Methods = Types<RatioScale, DuboisPrade, DuboisPradeSandri>;
-  const auto any = Distributions{} + Relations{};
-  verb(module, "to_possibility(p, method, /)", "The possibilities that a method makes of probabilities, row by row.",
-       any, Methods{}, [](const auto& p, const auto& method) -> decltype(to_possibility(p, method)) {
-         return to_possibility(p, method);
-       });
-  verb(module, "to_probability(pi, method, /)", "The probabilities that a method makes of possibilities, row by row.",
-       any, Methods{}, [](const auto& pi, const auto& method) -> decltype(to_probability(pi, method)) {
-         return to_probability(pi, method);
-       });
-}
-
-/// Columns as NumPy has them, −1 for none.
-py::array columns_of(const std::vector<std::size_t>& columns) {
-  std::vector<std::int64_t> with_sign;
-  for (const std::size_t column : columns)
-    with_sign.push_back(column == no_column ? -1 : static_cast<std::int64_t>(column));
-  return array_of(with_sign);
 }
 
 py::object match_any(const Array& none, const Array& weights, const std::string& pattern,
@@ -94,16 +66,17 @@ py::object match_any(const Array& none, const Array& weights, const std::string&
   const Matching found = unlocked([&] { return matching(choices, {max_states, true}); });
   Array log_none = unknown(none.size()), log_marginals = unknown(weights.shape(0), weights.shape(1));
   std::fill_n(log_marginals.mutable_data(), log_marginals.size(), log_zero);
-  for (std::size_t i = 0; i < found.marginals.rows(); ++i) {
+  std::vector<std::int64_t> best;
+  for (std::size_t i = 0; i < choices.rows(); ++i) {
+    best.push_back(found.best[i] == no_column ? -1 : static_cast<std::int64_t>(found.best[i]));
     log_none.mutable_at(i) = found.marginals.none(i);
     const ListOfEntries entries = found.marginals.entries(i);
     for (std::size_t k = 0; k < entries.columns.size(); ++k)
       log_marginals.mutable_at(i, entries.columns[k]) = entries.values[k];
   }
   return record(py::arg("log_total") = found.log_total, py::arg("log_best") = found.log_best,
-                py::arg("exact") = found.exact, py::arg("log_marginals") = log_marginals,
-                py::arg("log_none") = log_none, py::arg("winners") = columns_of(found.winners),
-                py::arg("best") = columns_of(found.best));
+                py::arg("best") = array_of(best), py::arg("log_marginals") = log_marginals,
+                py::arg("log_none") = log_none, py::arg("exact") = found.exact);
 }
 
 }  // namespace
@@ -119,9 +92,7 @@ void bind_verbs(py::module_& module) {
        "Posterior: the prior times the likelihood, divided by the ⊕ of the prior's kind, (8), (19), (20).\n\n"
        "ValueError if the evidence excludes every outcome that the prior left.",
        Distributions{}, Likelihoods{},
-       [](const auto& prior, const auto& likelihood) -> decltype(update(prior, likelihood)) {
-         return update(prior, likelihood);
-       });
+       [](const auto& prior, const auto& seen) -> decltype(update(prior, seen)) { return update(prior, seen); });
   verb(module, "invert(relation, prior, /)",
        "The relation read backwards under a prior of its condition, (43), (46), (52), (54).\n\n"
        "Returns (relation, unreachable): rows of outcomes that nothing reaches are uninformative, and listed.",
@@ -137,17 +108,28 @@ void bind_verbs(py::module_& module) {
           [](const auto& d, const auto& e) -> decltype(possibility(d, e)) { return possibility(d, e); });
   measure(module, "necessity(distribution, outcomes, /)", "N(A) = 1 − Π(not A): how far the event A is implied.",
           [](const auto& d, const auto& e) -> decltype(necessity(d, e)) { return necessity(d, e); });
-  measure(module, "given(distribution, outcomes, /)",
-          "The distribution when an event has come true; ValueError if its measure is zero.",
-          [](const auto& d, const auto& e) -> decltype(given(d, e)) { return given(d, e); });
-  bind_transforms(module);
+
+  py::class_<RatioScale>(module, "RatioScale", "Klir's ratio scale: π ∝ p^exponent, (34), and its inverse, (35).")
+      .def(py::init([](double exponent) { return RatioScale{exponent}; }), py::arg("exponent") = 1.0);
+  py::class_<DuboisPrade>(module, "DuboisPrade", "π_i = Σ {p_j : p_j ≤ p_i}: the most specific that is consistent.")
+      .def(py::init());
+  py::class_<DuboisPradeSandri>(module, "DuboisPradeSandri", "π_i = Σ_j min(p_i, p_j); its inverse is pignistic.")
+      .def(py::init());
+  using Methods = Types<RatioScale, DuboisPrade, DuboisPradeSandri>;
+  verb(module, "to_possibility(p, method, /)", "The possibilities that a method makes of probabilities, row by row.",
+       Distributions{} + Relations{}, Methods{},
+       [](const auto& p, const auto& by) -> decltype(to_possibility(p, by)) { return to_possibility(p, by); });
+  verb(module, "to_probability(pi, method, /)", "The probabilities that a method makes of possibilities, row by row.",
+       Distributions{} + Relations{}, Methods{},
+       [](const auto& pi, const auto& by) -> decltype(to_probability(pi, by)) { return to_probability(pi, by); });
+
   function(
       module, "match(log_none, log_weights, pattern, permutation, max_states=100000)",
       "Marginals of all events that give each row a column or none, and no column twice.\n\n"
       "Weights are of no column, `log_none` (rows,), and of each, `log_weights` (rows, columns); −inf excludes.\n"
       "Kinds of pattern and permutation: random, random is JPDA; random, fuzzy is JPDA*; fuzzy, fuzzy is GNN.\n"
-      "Returns log_marginals (rows, columns), log_none (rows,), winners and best (rows,), −1 for none; log_total of\n"
-      "all events, log_best; and exact, which is false if a cluster had too many states.",
+      "Returns log_marginals (rows, columns), log_none (rows,), log_total of all events, the best of them (rows,)\n"
+      "with −1 for none, log_best, and exact, which is false if a cluster had too many states.",
       &match_any, py::arg("log_none"), py::arg("log_weights"), py::arg("pattern"), py::arg("permutation"),
       py::arg("max_states") = MatchingOptions{}.max_states);
 }
