@@ -1,13 +1,9 @@
 #include "kinds.hpp"
 
-#include <cctype>
-
 namespace sigmax::python {
 
 std::string capital(std::string_view kind) {
-  std::string name(kind);
-  name[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(name[0])));
-  return name;
+  return py::str(std::string(kind)).attr("capitalize")().cast<std::string>();
 }
 
 std::string class_name(py::handle object) { return py::str(py::type::handle_of(object).attr("__name__")); }

@@ -95,7 +95,10 @@ void bind_classes(py::module_& module) {
          });
 }
 
-void bind_functions(py::module_& module) {
+}  // namespace
+
+void bind_network(py::module_& module) {
+  bind_classes(module);
   const auto known = py::arg("evidence") = py::dict();
   function(
       module, "query(network, variables, evidence={}, table_limit=1073741824)",
@@ -142,13 +145,6 @@ void bind_functions(py::module_& module) {
              write_bif(out, network, path_of(path).attr("stem").cast<std::string>());
              path_of(path).attr("write_text")(out.str(), "utf-8");
            });
-}
-
-}  // namespace
-
-void bind_network(py::module_& module) {
-  bind_classes(module);
-  bind_functions(module);
 }
 
 }  // namespace sigmax::python

@@ -47,7 +47,7 @@ void measure(py::module_& module, const char* signature, const char* doc, const 
 }
 
 py::object match_any(const Array& none, const Array& weights, const std::string& pattern,
-                     const std::string& permutation, std::size_t max_states) {
+                     const std::string& permutation) {
   expect_shape(none, "log_none", -1);
   expect_shape(weights, "log_weights", none.size(), -1);
   Choices choices;
@@ -63,7 +63,7 @@ py::object match_any(const Array& none, const Array& weights, const std::string&
     return permutation == Fuzzy::name ? &match<Pattern, Fuzzy> : &match<Pattern, Random>;
   };
   const auto matching = pattern == Fuzzy::name ? by(Fuzzy{}) : by(Random{});
-  const Matching found = unlocked([&] { return matching(choices, {max_states, true}); });
+  const Matching found = unlocked([&] { return matching(choices, {}); });
   Array log_none = unknown(none.size()), log_marginals = unknown(weights.shape(0), weights.shape(1));
   std::fill_n(log_marginals.mutable_data(), log_marginals.size(), log_zero);
   std::vector<std::int64_t> best;
@@ -124,14 +124,13 @@ void bind_verbs(py::module_& module) {
        [](const auto& pi, const auto& by) -> decltype(to_probability(pi, by)) { return to_probability(pi, by); });
 
   function(
-      module, "match(log_none, log_weights, pattern, permutation, max_states=100000)",
+      module, "match(log_none, log_weights, pattern, permutation, /)",
       "Marginals of all events that give each row a column or none, and no column twice.\n\n"
       "Weights are of no column, `log_none` (rows,), and of each, `log_weights` (rows, columns); −inf excludes.\n"
       "Kinds of pattern and permutation: random, random is JPDA; random, fuzzy is JPDA*; fuzzy, fuzzy is GNN.\n"
       "Returns log_marginals (rows, columns), log_none (rows,), log_total of all events, the best of them (rows,)\n"
       "with −1 for none, log_best, and exact, which is false if a cluster had too many states.",
-      &match_any, py::arg("log_none"), py::arg("log_weights"), py::arg("pattern"), py::arg("permutation"),
-      py::arg("max_states") = MatchingOptions{}.max_states);
+      &match_any);
 }
 
 }  // namespace sigmax::python
