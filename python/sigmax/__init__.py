@@ -2,5 +2,6 @@
 
 from ._sigmax import *
 from . import models, sensors
+from .filters import IMM, HIMM, GPB2, Viterbi, IMMHistories, HIMMHistories, MultiTargetTracker
 from .joint import HybridDistribution
-from .tracks import Track, Tuned, associate, track, tune
+from .tracks import Track, associate, track, tune
