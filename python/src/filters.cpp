@@ -15,15 +15,6 @@
 namespace sigmax::python {
 namespace {
 
-template <class Kind>
-Interaction<Kind> interaction_of(const TargetChoice& choice) {
-  Interaction<Kind> interaction{choice.augmentation};
-  interaction.output_tie = choice.output_tie;
-  interaction.likelihood = choice.likelihood;
-  if constexpr (std::is_same_v<Kind, Fuzzy>) interaction.collapse = {choice.mixed_covariance, choice.mixing_tie};
-  return interaction;
-}
-
 /// A start of n components in the order of `components`.
 detail::ConstView start_of(const Array& x, const Array& P, int n) {
   expect_shape(x, "x", n);
@@ -51,7 +42,10 @@ std::unique_ptr<MultipleModelFilter<Kind>> filter_of(const Settings& made, const
   const auto& given = made.relation.cast<const Relation<Kind, Kind>&>();
   ModeTransition<Kind> transition = given;
   if (!choice.sojourn_s.empty()) transition = TimedTransition<Kind>(given.to(), rates_of_sojourns(choice.sojourn_s));
-  const auto interaction = interaction_of<Kind>(choice);
+  Interaction<Kind> interaction{choice.augmentation};
+  interaction.output_tie = choice.output_tie;
+  interaction.likelihood = choice.likelihood;
+  if constexpr (std::is_same_v<Kind, Fuzzy>) interaction.collapse = {choice.mixed_covariance, choice.mixing_tie};
   const HistoryRules<Kind> rules{.histories = choice.histories, .cut = choice.cut, .tempering = choice.tempering};
   std::unique_ptr<MultipleModelFilter<Kind>> filter;
   if (choice.scheme == Scheme::histories)
@@ -75,8 +69,11 @@ std::pair<Array, Array> estimate(const MultipleModelFilter<Kind>& filter) {
   return result;
 }
 
-Seen seen_at(detail::ConstView z, const Sensor* sensor = nullptr) {
-  return {z, detail::sensor_of_models(sensor ? sensor->any : detail::position_sensor(z.n))};
+/// An argument of this class, quicker than by pybind11's own conversion. Throws TypeError for another class.
+template <class T>
+const T& argument(const py::object& object) {
+  if (!py::isinstance<T>(object)) throw py::type_error("step: unexpected " + class_name(object));
+  return object.cast<const T&>();
 }
 
 template <class Kind>
@@ -87,17 +84,18 @@ void bind_kind(py::module_& module) {
   type.def(py::init(&filter_of<Kind>));
   type.def(
       "step",
-      [](Filter& self, double dt, const py::object& numbers, const py::object& noise, const Sensor* sensor,
-         const Gate* gate) {
+      [](Filter& self, double dt, const py::object& numbers, const py::object& noise, const py::object& sensor,
+         const py::object& gate) {
         if (numbers.is_none()) return self.step(dt);
         const Array z = measured(numbers), R = measured(noise);
         expect_shape(z, "z", -1);
-        require_quantities(z.size(), sensor ? max_measurement_size : 3);
+        require_quantities(z.size(), sensor.is_none() ? 3 : max_measurement_size);
         const auto m = static_cast<int>(z.size());
         double covariance[max_measurement_size * max_measurement_size];
         write_covariance(R, 0, 1, m, covariance);
-        const Seen seen = seen_at({z.data(), covariance, m}, sensor);
-        self.step(dt, &seen, gate ? *gate : Gate());
+        const AnySensor& eye = sensor.is_none() ? detail::position_sensor(m) : argument<Sensor>(sensor).any;
+        const Seen seen{{z.data(), covariance, m}, detail::sensor_of_models(eye)};
+        self.step(dt, &seen, gate.is_none() ? Gate() : argument<Gate>(gate));
       },
       "One cycle, dt seconds after the last, without a detection or with z (m,) and its R, (m, m) or variances (m,).\n"
       "\nWithout a sensor z is a position. Beyond the gate it counts as missed.",
@@ -109,12 +107,12 @@ void bind_kind(py::module_& module) {
          const Array& R) {
         const Array z = measured(numbers);
         expect_shape(z, "z", filters.size(), -1);
-        const py::ssize_t rows = z.shape(0), m = z.shape(1);
-        require_quantities(m, 3);
+        require_quantities(z.shape(1), 3);
+        const auto m = static_cast<int>(z.shape(1));
         double covariance[max_measurement_size * max_measurement_size];
-        for (py::ssize_t t = 0; t < rows; ++t) {
-          write_covariance(R, t, rows, m, covariance);
-          const Seen seen = seen_at({z.data(t, 0), covariance, static_cast<int>(m)});
+        for (py::ssize_t t = 0; t < z.shape(0); ++t) {
+          write_covariance(R, t, z.shape(0), m, covariance);
+          const Seen seen{{z.data(t, 0), covariance, m}, detail::sensor_of_models(detail::position_sensor(m))};
           filters[static_cast<std::size_t>(t)].get().step(dt, std::isnan(*z.data(t, 0)) ? nullptr : &seen);
         }
       },

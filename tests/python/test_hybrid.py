@@ -199,6 +199,8 @@ def test_wrong_shapes_and_words():
     ]:
         with pytest.raises(ValueError, match=words):
             call()
+    with pytest.raises(TypeError, match="step: unexpected float"):
+        filter.step(0.2, z[0], R=R, gate=0.99)
     with pytest.raises(TypeError, match="dwna: there is no parameter 'tau_s'"):
         models.dwna(2, tau_s=1.0)
     with pytest.raises(TypeError, match="there is no rule 'gaet'"):
