@@ -70,9 +70,11 @@ const Rules scene_rules = {{"pattern", rule(&S::association, &AssociationChoice:
 
 Settings settings_of(bool fuzzy, int scheme, const std::vector<Model>& models, const py::object& relation,
                      const py::dict& rules, bool many) {
-  Settings made{{.fuzzy = fuzzy, .scheme = static_cast<Scheme>(scheme)}};
+  Settings made;
   made.relation = relation;
   TargetChoice& choice = made.choice;
+  choice.fuzzy = fuzzy;
+  choice.scheme = static_cast<Scheme>(scheme);
   choice.models = relation.attr("to").attr("labels").cast<std::vector<std::string>>();
   choice.transition = relation.attr("table").attr("tolist")().cast<std::vector<std::vector<double>>>();
   if (choice.scheme == Scheme::histories) choice.augmentation = StateAugmentation::prior;

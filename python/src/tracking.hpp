@@ -32,7 +32,7 @@ struct Detections : std::vector<AnyDetection> {};
 
 /// What a filter, or a tracker of many targets, is made of. The choice lacks motions of a user's own.
 struct Settings {
-  TargetChoice choice;
+  TargetChoice choice = {};
   TargetRules target = choice.rules;
   AssociationChoice association = {};
   MultiTargetRules scene = {};
