@@ -282,7 +282,8 @@ class Tracks final : public Tracking {
 std::function<Tracking&()> chosen_tracking(const TargetChoice& choice, const AssociationChoice& kinds,
                                            const MultiTargetRules& rules) {
   if (choice.scheme == Scheme::histories && !kinds.fuzzy_pattern)
-    throw std::invalid_argument("histories of the mode want a fuzzy pattern, as GNN has: a mixture of them has no moments");
+    throw std::invalid_argument(
+        "histories of the mode want a fuzzy pattern, as GNN has: a mixture of them has no moments");
   if (choice.fuzzy && kinds.fuzzy_pattern) return held<Tracking>(Tracks<Fuzzy, Fuzzy>(choice, kinds, rules));
   if (choice.fuzzy) return held<Tracking>(Tracks<Fuzzy, Random>(choice, kinds, rules));
   if (kinds.fuzzy_pattern) return held<Tracking>(Tracks<Random, Fuzzy>(choice, kinds, rules));

@@ -139,7 +139,7 @@ py::list tracks_of(const MultiTargetTracker& tracker, std::optional<double> time
 void bind_tracker(py::module_& module) {
   using Tracker = MultiTargetTracker;
   py::class_<Tracker> tracker(module, "_Tracker");
-  constructor(tracker, "", [](const Settings& made) { return Tracker(made.choice, made.association, made.scene); });
+  tracker.def(py::init([](const Settings& made) { return Tracker(made.choice, made.association, made.scene); }));
   method(tracker, "scan", "Takes a scan; returns whose each detection is, (N,): the number of a track, or 0.",
          [](Tracker& self, const Detections& detections) {
            std::vector<std::int64_t> owners(detections.size());
