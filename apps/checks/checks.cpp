@@ -69,7 +69,7 @@ std::vector<std::string> RecordingChecks::findings() const {
                            check_velocities, check_sensors})
     if (found.empty()) check(records_, found);
   std::map<std::string, std::size_t> again;  // of one kind, in several tracks
-  for (const Finding& one : found) ++again[one.text.substr(0, one.text.find(':'))];
+  for (const auto& one : found) ++again[one.text.substr(0, one.text.find(':'))];
   std::vector<std::string> sentences;
   for (const auto& [track, line, text] : found) {
     const std::size_t tracks = std::exchange(again[text.substr(0, text.find(':'))], 0);

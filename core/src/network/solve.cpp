@@ -22,7 +22,7 @@ std::vector<Vertex> scope_of(const RelationNetwork& network, Vertex v, const Par
 Factor table_factor(const RelationNetwork& network, Vertex v, const Parts& parts,
                     const std::vector<std::size_t>& sizes) {
   Factor factor{scope_of(network, v, parts), {}};
-  factor.values.resize(outcomes_of(factor.scope, sizes));
+  factor.values.resize(elimination::outcomes_of(factor.scope, sizes));
   const std::vector<std::size_t>& parents = network[v].parents;
   ScaledNumber* out = factor.values.data();
   const auto read = [&](const auto& rows) {
