@@ -62,7 +62,7 @@ std::optional<double> parse_timestamp(std::string_view text, const std::string& 
   std::tm parsed{};
   const char* const end = ::strptime(cell.c_str(), format.c_str(), &parsed);
   if (end == nullptr) return std::nullopt;
-  std::string_view rest = end;
+  std::string_view rest = std::string_view(cell).substr(static_cast<std::size_t>(end - cell.c_str()));
   const auto fraction = take_fraction(rest);
   const auto zone = offset_minutes(trimmed(rest));
   of_day = parsed.tm_mday == 0;
