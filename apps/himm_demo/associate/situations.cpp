@@ -50,8 +50,8 @@ ScenePlan plan_of(const std::string& situation, RandomStream& random) {
   if (situation == "dense") {
     ScenePlan plan{.side = 8000.0, .false_detections = 60.0};
     for (int i = 0; i < 12; ++i) {
-      const Plane velocity = std::polar(50.0, 2.0 * std::numbers::pi * random.uniform()) + normal(10.0);
-      plan.targets.push_back({30, Plane{4000.0, 4000.0} + normal(1000.0), velocity, {}, i, 60 - i / 2});
+      const Plane spread = normal(10.0), course = std::polar(50.0, 2.0 * std::numbers::pi * random.uniform());
+      plan.targets.push_back({30, Plane{4000.0, 4000.0} + normal(1000.0), course + spread, {}, i, 60 - i / 2});
     }
     return plan;
   }
