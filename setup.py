@@ -20,7 +20,7 @@ class CMakeBuild(build_ext):
         python = [f"-D{name}_EXECUTABLE={sys.executable}" for name in ("Python3", "PYTHON")]
         options = ["-DCMAKE_BUILD_TYPE=Release", "-DSIGMAX_PYTHON=ON", *off, *python]
         subprocess.run(["cmake", "-S", root, "-B", build, *options], check=True)
-        subprocess.run(["cmake", "--build", build, "--target", "sigmax_python", "--parallel", str(os.cpu_count())], check=True)
+        subprocess.run(["cmake", "--build", build, "--target", "sigmax_python", f"-j{os.cpu_count()}"], check=True)
         target.parent.mkdir(parents=True, exist_ok=True)
         shutil.copy(build / "python" / "sigmax" / target.name, target)
 

@@ -47,7 +47,8 @@ def filters(benchmark):
     models = [sx.models.dwna(3, sigma=3.0), sx.models.dwpa(3, sigma=3.0)]
     times, z, R = measurements()
     rows = list(z)
-    start = {"x": [12e3, 8e3, 1e3, -100.0, -100.0, 0.0, 0.0, 0.0, 0.0], "P": np.diag([100.0] * 3 + [400.0] * 3 + [100.0] * 3)}
+    P = np.diag([100.0] * 3 + [400.0] * 3 + [100.0] * 3)
+    start = {"x": [12e3, 8e3, 1e3, -100.0, -100.0, 0.0, 0.0, 0.0, 0.0], "P": P}
     imm = sx.IMM(models, [[0.95, 0.05], [0.05, 0.95]], **start)
 
     def steps():
@@ -70,10 +71,12 @@ def classifiers(rows=1_000_000, features=4, values=8, classes=5):
     y = generator.integers(classes, size=rows)
     X = (generator.integers(values, size=(rows, features)) + y[:, None]) % values
     naive_bayes = CategoricalNB().fit(X, y)
-    show("fit, a row: ours, CategoricalNB", seconds(lambda: SigmaMaxClassifier().fit(X, y), 3), seconds(lambda: CategoricalNB().fit(X, y), 3), rows)
+    fits = [seconds(lambda: each.fit(X, y), 3) for each in (SigmaMaxClassifier(), CategoricalNB())]
+    show("fit, a row: ours, CategoricalNB", *fits, rows)
     for pattern in "random", "fuzzy":
         ours = SigmaMaxClassifier(pattern, pattern).fit(X, y)
-        show(f"predict by {pattern} kinds: ours, CategoricalNB", seconds(lambda: ours.predict(X)), seconds(lambda: naive_bayes.predict(X)), rows)
+        predictions = [seconds(lambda: each.predict(X)) for each in (ours, naive_bayes)]
+        show(f"predict by {pattern} kinds: ours, CategoricalNB", *predictions, rows)
 
 
 def compositions(size=1000):
@@ -84,7 +87,8 @@ def compositions(size=1000):
         a, b, c = (kind(name, size) for name in "abc")
         tables = [table / normal(table, axis=1, keepdims=True) for table in (left, right)]
         first, second = sx.Relation(b, a, tables[0]), sx.Relation(c, b, tables[1])
-        show(f"compose, {kind.kind}: ours, NumPy's product", seconds(lambda: sx.compose(second, first)), seconds(lambda: tables[0] @ tables[1]), 1, "ms")
+        ours, product = seconds(lambda: sx.compose(second, first)), seconds(lambda: tables[0] @ tables[1])
+        show(f"compose, {kind.kind}: ours, NumPy's product", ours, product, 1, "ms")
 
 
 if __name__ == "__main__":

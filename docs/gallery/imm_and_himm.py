@@ -25,7 +25,8 @@ def fly():
 def see(truth):
     """Measured positions (N, 3) and their covariances (N, 3, 3)."""
     ground = np.hypot(truth[:, 0], truth[:, 1])
-    polar = np.stack([np.linalg.norm(truth, axis=1), np.arctan2(truth[:, 1], truth[:, 0]), np.arctan2(truth[:, 2], ground)], 1)
+    azimuth, elevation = np.arctan2(truth[:, 1], truth[:, 0]), np.arctan2(truth[:, 2], ground)
+    polar = np.stack([np.linalg.norm(truth, axis=1), azimuth, elevation], 1)
     r, azimuth, elevation = (polar + sigma * generator.normal(size=polar.shape)).T
     across, up, away = np.cos(azimuth) * np.cos(elevation), np.sin(azimuth) * np.cos(elevation), np.sin(elevation)
     z = r[:, None] * np.stack([across, up, away], 1)

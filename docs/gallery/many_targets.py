@@ -8,7 +8,8 @@ import sigmax as sx
 
 generator = np.random.default_rng(4)
 R = np.diag([100.0, 100.0])
-truth = np.array([[[30.0 * t, side * (600.0 - 20.0 * t)] for side in (-1, 1)] for t in range(60)])  # (scans, targets, 2)
+# (scans, targets, 2)
+truth = np.array([[[30.0 * t, side * (600.0 - 20.0 * t)] for side in (-1, 1)] for t in range(60)])
 
 scans = []
 for t, positions in enumerate(truth):

@@ -34,8 +34,9 @@ coordinated_turn = named(core._known_model, "ct", "A turn at an estimated rate, 
 def slopes(f: Callable[..., Any]) -> Callable[..., Any]:
     """The Jacobian of f(x, …) by central differences."""
     def jacobian(x: Any, *others: Any) -> Any:
-        steps = np.diag(6e-6 * np.maximum(1.0, np.abs(x)))
-        return np.transpose([(np.asarray(f(x + step, *others)) - f(x - step, *others)) / (2.0 * step.sum()) for step in steps])
+        steps = 6e-6 * np.maximum(1.0, np.abs(x))
+        differences = [np.asarray(f(x + step, *others)) - f(x - step, *others) for step in np.diag(steps)]
+        return np.transpose(differences) / (2.0 * steps)
     return jacobian
 
 
@@ -44,8 +45,9 @@ def linear(F: Any, Q: Any, components: Sequence[str], *, name: str = "linear") -
     return core._own_model(name, list(components), None, F, Q, "ekf")  # type: ignore[no-any-return]
 
 
-def motion(f: Callable[..., Any], Q: Any, components: Sequence[str], *, jacobian: Any = None, name: str = "motion", member: str = "ekf") -> Model:
-    """x = f(x, dt) + w, (21): f returns (n,), jacobian(x, dt) (n, n); Q is as of linear; member is "ekf", "ukf" or "ckf".
+def motion(f: Callable[..., Any], Q: Any, components: Sequence[str], *, jacobian: Any = None, name: str = "motion",
+           member: str = "ekf") -> Model:
+    """x = f(x, dt) + w, (21): f returns (n,), jacobian(x, dt) (n, n); Q as of linear; member is "ekf", "ukf" or "ckf".
 
     Without a Jacobian the EKF calls f 2n times for central differences: some microseconds each, in every mode and step.
     """

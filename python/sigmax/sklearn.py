@@ -13,13 +13,14 @@ Contribution = namedtuple("Contribution", "feature reading log_ratio equation")
 
 
 class SigmaMaxClassifier(ClassifierMixin, BaseEstimator):
-    """Classes and features of either kind, "random" or "fuzzy": (17)-(20), (41)-(46). Both random is categorical naive Bayes.
+    """Classes and features of either kind, "random" or "fuzzy": (17)-(20), (41)-(46). Both random is naive Bayes.
 
     Numbers become at most `bins` bins, words values; NaN, None and words that are new in `predict` are missing.
     `transformation`, "ratio" or "dubois_prade", makes possibilities of counts, to each of which `smoothing` is added.
     Without `fit_prior` nothing is known of the class before a row is seen."""
 
-    def __init__(self, pattern="random", features="random", *, transformation="ratio", bins=8, smoothing=1.0, fit_prior=True):
+    def __init__(self, pattern="random", features="random", *, transformation="ratio", bins=8, smoothing=1.0,
+                 fit_prior=True):
         self.pattern, self.features, self.transformation = pattern, features, transformation
         self.bins, self.smoothing, self.fit_prior = bins, smoothing, fit_prior
 
@@ -112,7 +113,7 @@ class SigmaMaxClassifier(ClassifierMixin, BaseEstimator):
         return self
 
     def _make_logs(self):
-        """Logarithms of the prior (classes,), and of each reading (columns, readings, classes): zero where one is missing."""
+        """Logarithms of the prior (classes,), and of each reading (columns, readings, classes): 0 if missing."""
         kinds = ["random", "fuzzy"]
         for name, words in ("pattern", kinds), ("features", kinds), ("transformation", ["ratio", "dubois_prade"]):
             if getattr(self, name) not in words:
@@ -154,5 +155,5 @@ def _bins(column, bins):
     except (ValueError, TypeError):
         if column.dtype.kind not in "OUS":
             raise
-    words = [str(word) for word in np.unique(column.astype(str)) if word not in ("", "nan", "None", "<NA>")] or ["missing"]
+    words = sorted({*np.unique(column.astype(str)).tolist()} - {"", "nan", "None", "<NA>"}) or ["missing"]
     return [float(i) for i in range(1, len(words))], words, True

@@ -34,7 +34,7 @@ class Track:
         return f"<Track of {len(self.times)} rows: {', '.join(self.components)}; modes {', '.join(self.mode.labels)}>"
 
     def smooth(self) -> "Track":
-        """The same of the whole recording: the filter runs again and keeps its steps for the fixed-interval smoother."""
+        """The same of the whole recording: the filter runs again and keeps its steps for the smoother."""
         if self._again is None:
             raise ValueError("only a track of track() can be smoothed")
         return _track(*self._again, True)
@@ -42,12 +42,13 @@ class Track:
     def to_pandas(self) -> Any:
         """A data frame with a row for each time: components, sigma_…, nis, weight_…."""
         pandas: Any = importlib.import_module("pandas")
-        labels = [*self.components, *(f"sigma_{name}" for name in self.components), "nis", *(f"weight_{name}" for name in self.mode.labels)]
+        labels = [*self.components, *("sigma_" + name for name in self.components), "nis"]
+        labels += ["weight_" + name for name in self.mode.labels]
         columns = np.column_stack([self.x, np.sqrt(np.diagonal(self.P, axis1=1, axis2=2)), self.nis, self.weights])
         return pandas.DataFrame(columns, columns=labels, index=pandas.Index(self.times, name="time_s"))
 
     def plot(self, axes: Any = None) -> Any:
-        """Draws the path, or x over time along one axis, and the weights of the modes; returns two axes of matplotlib."""
+        """Draws the path, or x over time along one axis, and the weights of the modes; returns matplotlib's axes."""
         if axes is None:
             axes = importlib.import_module("matplotlib.figure").Figure((9, 3.5), layout="constrained").subplots(1, 2)
         path, modes = axes
@@ -67,14 +68,16 @@ class Track:
             self.plot()[0].figure.savefig(picture, format="svg")
         except ImportError:
             return caption
-        return f"<figure>{picture.getvalue()[picture.getvalue().index('<svg'):]}<figcaption>{caption}</figcaption></figure>"
+        head, tag, drawn = picture.getvalue().partition("<svg")
+        return f"<figure>{tag}{drawn}<figcaption>{caption}</figcaption></figure>"
 
 
 def _track(made: Any, detections: Detections, smoothed: bool) -> Track:
     return Track(*made.follow(detections, smoothed), made.relation.to, (made, detections))
 
 
-def track(times: Any, z: Any = None, R: Any = None, *, models: Sequence[Model], filter: str = "himm", transition: Any = None, sensor: Optional[Sensor] = None, **rules: Any) -> Track:
+def track(times: Any, z: Any = None, R: Any = None, *, models: Sequence[Model], filter: str = "himm",
+          transition: Any = None, sensor: Optional[Sensor] = None, **rules: Any) -> Track:
     """Follows one target through a recording at the speed of the library.
 
     times (N,) in s, z (N, m) with NaN or masked rows for missed detections, R (m, m), (m,) or (N, m, m); or Detections
@@ -85,7 +88,8 @@ def track(times: Any, z: Any = None, R: Any = None, *, models: Sequence[Model], 
     return _track(settings(filter, models, transition, rules, recorded=True), detections, False)
 
 
-def associate(scans: Sequence[Detections], models: Sequence[Model], **rules: Any) -> tuple[dict[int, Track], list[npt.NDArray[np.int64]]]:
+def associate(scans: Sequence[Detections], models: Sequence[Model],
+              **rules: Any) -> tuple[dict[int, Track], list[npt.NDArray[np.int64]]]:
     """Tracks many targets: the confirmed ones, a row for each scan, by number; and whose each detection is, or 0."""
     tracker, labels = MultiTargetTracker(models, **rules), []
     known: dict[int, list[Any]] = {}
@@ -94,10 +98,12 @@ def associate(scans: Sequence[Detections], models: Sequence[Model], **rules: Any
         for target in tracker.tracks():
             if target.confirmed:
                 known.setdefault(target.number, []).append((target.time, target.x, target.P, target.weights, np.nan))
-    return {each: Track(*map(np.array, zip(*rows)), tracker.components, tracker.mode) for each, rows in known.items()}, labels
+    last = tracker.components, tracker.mode
+    return {each: Track(*map(np.array, zip(*rows)), *last) for each, rows in known.items()}, labels
 
 
-def tune(recordings: Sequence[Detections], *, models: Sequence[Model], filter: str = "himm", transition: Any = None, folds: int = 5, seed: int = 1, **rules: Any) -> SimpleNamespace:
+def tune(recordings: Sequence[Detections], *, models: Sequence[Model], filter: str = "himm", transition: Any = None,
+         folds: int = 5, seed: int = 1, **rules: Any) -> SimpleNamespace:
     """Fits the motions' noise, the transition and a factor on the sensors' standard deviations, `noise`.
 
     `numbers` has each with its standard error, infinite if it is not identifiable; `settings` are for track(detections,
@@ -107,5 +113,6 @@ def tune(recordings: Sequence[Detections], *, models: Sequence[Model], filter: s
     if not hasattr(made, "tune"):
         raise RuntimeError("sigmax was built without NLopt (libnlopt-cxx-dev), so it cannot tune")
     numbers, fitted, table, sojourn, loss, before = made.tune(list(recordings), folds, seed)
-    found = {**rules, "filter": filter, "models": fitted, **({"sojourn": sojourn} if sojourn else {"transition": table})}
+    found = {**rules, "filter": filter, "models": fitted}
+    found |= {"sojourn": sojourn} if sojourn else {"transition": table}
     return SimpleNamespace(numbers=numbers, settings=found, noise=numbers["noise"][0], loss=loss, loss_before=before)

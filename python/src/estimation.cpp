@@ -151,6 +151,7 @@ Detections detections_of(const Array& times, const py::object& numbers, const Ar
   AnyDetection detection = sensor ? *sensor->plain : AnyDetection{.sensor = AnyDetection::Sensor::position};
   detection.size = static_cast<int>(m);
   Detections result;
+  result.reserve(static_cast<std::size_t>(times.size()));
   for (py::ssize_t i = 0; i < times.size(); ++i) {
     const double* const row = z.data() + i * m;
     const auto missing = std::count_if(row, row + m, [](double number) { return std::isnan(number); });

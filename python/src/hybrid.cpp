@@ -106,18 +106,17 @@ py::tuple follow(const Settings& made, const Detections& detections, bool smooth
   const Array x = unknown(rows, n), P = unknown(rows, n, n), weights = unknown(rows, choice.models.size()),
               nis = unknown(rows);
   const auto write = [&](const TargetPoint& point) {  // needs no lock of Python
-    const auto put = [&](const std::vector<double>& row, const Array& series) {
+    const double squared = point.nis.value_or(std::numeric_limits<double>::quiet_NaN());
+    const auto put = [&](std::span<const double> row, const Array& series) {
       std::ranges::copy(row, const_cast<double*>(series.data()) + point.tag * row.size());
     };
     put(point.mean, x);
     put(point.covariance, P);
     put(point.weights, weights);
-    put({point.nis.value_or(std::numeric_limits<double>::quiet_NaN())}, nis);
+    put({&squared, 1}, nis);
   };
   unlocked([&] {
-    target.follow(detections, [&](const TargetPoint& point) {
-      if (!smoothed) write(point);
-    });
+    target.follow(detections, write);
     if (smoothed) target.smoothed(write);
   });
   return py::make_tuple(times, x, P, weights, nis, target.components());

@@ -77,7 +77,8 @@ def test_a_hybrid_distribution_is_one_in_one_order_only():
     back, unreachable = joint.outer_given_inner()
     np.testing.assert_allclose(back.table, [[1, 1 / 3], [1 / 7, 1]])
     np.testing.assert_allclose(back.table * joint.inner_marginal().values[:, None], joint.table.T)  # (14)
-    assert unreachable == [] and type(sx.HybridDistribution(mood_given_age, looks).inner_marginal()) is sx.FuzzyDistribution
+    assert unreachable == []
+    assert type(sx.HybridDistribution(mood_given_age, looks).inner_marginal()) is sx.FuzzyDistribution
 
 
 def test_transforms():
@@ -173,26 +174,36 @@ def test_rows_are_sequences():
 
 
 refusals = [
-    (TypeError, r"update: .*found \(RandomDistribution, FuzzyLikelihood\)", lambda: sx.update(weather, mood_given_age.likelihood(0))),
-    (TypeError, r"update: .*found \(FuzzyDistribution, OrdinalLikelihood\)", lambda: sx.update(looks, sx.Likelihood(rank, [1, 0]))),
-    (TypeError, r"compose: .*found \(FuzzyGivenFuzzy, RandomGivenFuzzy\)", lambda: sx.compose(mood_given_age, speed_given_mood)),
+    (TypeError, r"update: .*found \(RandomDistribution, FuzzyLikelihood\)",
+     lambda: sx.update(weather, mood_given_age.likelihood(0))),
+    (TypeError, r"update: .*found \(FuzzyDistribution, OrdinalLikelihood\)",
+     lambda: sx.update(looks, sx.Likelihood(rank, [1, 0]))),
+    (TypeError, r"compose: .*found \(FuzzyGivenFuzzy, RandomGivenFuzzy\)",
+     lambda: sx.compose(mood_given_age, speed_given_mood)),
     (TypeError, r"invert: .*found \(FuzzyGivenFuzzy, RandomDistribution\)", lambda: sx.invert(mood_given_age, weather)),
-    (TypeError, r"compose: .*found \(FuzzyGivenFuzzy, RandomDistribution\)", lambda: sx.HybridDistribution(mood_given_age, weather)),
+    (TypeError, r"compose: .*found \(FuzzyGivenFuzzy, RandomDistribution\)",
+     lambda: sx.HybridDistribution(mood_given_age, weather)),
     (TypeError, r"probability: .*found \(FuzzyDistribution, list\)", lambda: sx.probability(looks, [0])),
-    (TypeError, r"Relation: .*found \(FuzzyVariable, OrdinalVariable, list\)", lambda: sx.Relation(mood, rank, [[1, 1]])),
+    (TypeError, r"Relation: .*found \(FuzzyVariable, OrdinalVariable, list\)",
+     lambda: sx.Relation(mood, rank, [[1, 1]])),
     (TypeError, "FuzzyVariable(.|\n)*RandomVariable", lambda: sx.FuzzyDistribution(speed, [1, 1])),
-    (TypeError, r"to_possibility: .*found \(FuzzyDistribution, RatioScale\)", lambda: sx.to_possibility(looks, sx.RatioScale())),
+    (TypeError, r"to_possibility: .*found \(FuzzyDistribution, RatioScale\)",
+     lambda: sx.to_possibility(looks, sx.RatioScale())),
     (TypeError, r"update: .*found \(int, FuzzyDistribution\)", lambda: sx.update(3, looks)),
     (TypeError, "1.5", lambda: looks[1.5]),
-    (ValueError, "'mood' given age = 'old' is 0.9, not 1", lambda: sx.Relation(mood, age, [[0.3, 1], [1, 0.6], [0.9, 0.2]])),
+    (ValueError, "'mood' given age = 'old' is 0.9, not 1",
+     lambda: sx.Relation(mood, age, [[0.3, 1], [1, 0.6], [0.9, 0.2]])),
     (ValueError, "'age' at outcome 'middle' is nan", lambda: sx.Distribution(age, [1, np.nan, 0])),
     (ValueError, "needs 3 rows, but 2", lambda: sx.Relation(mood, age, [[0.3, 1], [1, 0.6]])),
     (ValueError, r"expected shape \(any, any\), found \(2,\)", lambda: sx.Relation(mood, age, [0.3, 1])),
     (ValueError, r"expected shape \(any,\), found \(1, 3\)", lambda: sx.Distribution(age, [[1, 1, 1]])),
     (ValueError, "no outcome 'ancient'; its outcomes are young", lambda: looks["ancient"]),
-    (ValueError, "expected variable 'mood', found 'age'", lambda: sx.compose(speed_given_mood, sx.Relation(age, mood, [[1] * 3] * 2))),
-    (ValueError, "excludes every outcome|no outcome", lambda: sx.update(sx.Distribution(age, [1, 0, 0]), sx.Likelihood(age, [0, 1, 1]))),
-    (ValueError, "expected 'random' or 'fuzzy', found 'ordinal'", lambda: sx.match([0.0], [[0.0]], "ordinal", "random")),
+    (ValueError, "expected variable 'mood', found 'age'",
+     lambda: sx.compose(speed_given_mood, sx.Relation(age, mood, [[1] * 3] * 2))),
+    (ValueError, "excludes every outcome|no outcome",
+     lambda: sx.update(sx.Distribution(age, [1, 0, 0]), sx.Likelihood(age, [0, 1, 1]))),
+    (ValueError, "expected 'random' or 'fuzzy', found 'ordinal'",
+     lambda: sx.match([0.0], [[0.0]], "ordinal", "random")),
     (IndexError, "'age' has no outcome 3", lambda: looks[3]),
     (IndexError, "'age' has no outcome -1", lambda: mood_given_age[-1, 0]),
 ]

@@ -52,7 +52,7 @@ def test_a_query_eliminates_all_others_innermost_first(names):
 def test_evidence_is_a_label_or_a_likelihood():
     network, joint = mixed()
     evidence = {"noise": "high", "mood": sx.Likelihood(mood, [0.2, 1.0]), "age": sx.Likelihood(age, [1, 0, 1])}
-    weights = joint * np.array([0, 1.0]) * np.array([0.2, 1.0]).reshape(2, 1, 1) * np.array([1, 0, 1.0]).reshape(3, 1, 1, 1)
+    weights = joint * np.array([0, 1.0]) * np.reshape([0.2, 1.0], (2, 1, 1)) * np.reshape([1, 0, 1.0], (3, 1, 1, 1))
     answer = sx.query(network, ["age"], evidence)
     np.testing.assert_allclose(np.exp(answer.logs), queried(weights, ["age"]), rtol=1e-12)
     assert type(answer.distribution()) is sx.FuzzyDistribution and answer.distribution()["young"] == 1.0
@@ -91,7 +91,8 @@ refusals = [
     (ValueError, "no variable 'x'", lambda network: sx.query(network, ["x"])),
     (ValueError, "'mood' is declared twice", lambda network: network.declare(mood, [], [[1, 1]])),
     (ValueError, "above the limit", lambda network: sx.query(network, axes, table_limit=8)),
-    (ValueError, "evidence of 'age': found that of 'mood'", lambda network: sx.query(network, ["age"], {"age": sx.Likelihood(mood, [1, 1])})),
+    (ValueError, "evidence of 'age': found that of 'mood'",
+     lambda network: sx.query(network, ["age"], {"age": sx.Likelihood(mood, [1, 1])})),
     (ValueError, "2 variables, not of one", lambda network: sx.query(network, ["age", "mood"]).distribution()),
     (ValueError, "'age' is fuzzy, not random", lambda network: sx.write_bif("/dev/null", network)),
     (TypeError, "'age': 3", lambda network: sx.query(network, ["age"], {"age": 3})),

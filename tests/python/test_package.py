@@ -25,7 +25,8 @@ def test_with_an_unknown_numpy_there_is_a_sentence():
     code = "import sys, types; sys.modules['numpy'] = types.SimpleNamespace(__version__='2.1.0'); import sigmax"
     result = run("-c", code)
     assert result.returncode == 1
-    assert re.search(r"ImportError: sigmax was built with pybind11 2\.1\d, .*found NumPy 2\.1\.0; install 'numpy<2'", result.stderr)
+    sentence = r"ImportError: sigmax was built with pybind11 2\.1\d, .*found NumPy 2\.1\.0; install 'numpy<2'"
+    assert re.search(sentence, result.stderr)
 
 
 def test_the_stubs_are_those_of_the_module():
