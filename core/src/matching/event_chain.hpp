@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -48,9 +49,9 @@ class KeySet {
 
  private:
   std::uint32_t& slot_of(const Word* key) {
-    Word at = 0;
-    for (std::size_t w = 0; w < words_; ++w) at = (at ^ key[w]) * 0x9e37'79b9'7f4a'7c15, at ^= at >> 29;
-    for (;; ++at)
+    Word hash = 0;  // its highest bits depend on all of the key, its lowest on those as low
+    for (std::size_t w = 0; w < words_; ++w) hash = (hash ^ hash >> 32 ^ key[w]) * 0x9e37'79b9'7f4a'7c15;
+    for (Word at = hash >> std::countl_zero(slots_.size() - 1);; ++at)
       if (std::uint32_t& slot = slots_[at & (slots_.size() - 1)];
           slot == 0 || std::equal(key, key + words_, (*this)[slot - 1]))
         return slot;
