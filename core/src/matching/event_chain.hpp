@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <numeric>
 #include <span>
 #include <utility>
@@ -118,9 +119,7 @@ class EventChain {
       std::fill(kept.begin(), kept.end(), ~Word{0});
       for (const std::size_t bit : forgotten[t]) kept[bit / 64] &= ~(Word{1} << bit % 64);
       if (keep_patterns) kept[across / 64] &= ~(Word{1} << across % 64);
-      const auto forget = [&] {
-        for (std::size_t w = 0; w < words; ++w) key[w] &= kept[w];
-      };
+      const auto forget = [&] { std::ranges::transform(key, kept, key.begin(), std::bit_and()); };
       joints.clear();
       for (std::size_t state = 0; state < states.size(); ++state) {
         const Word* const from = states[state];
