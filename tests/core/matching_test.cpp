@@ -275,7 +275,7 @@ TYPED_PROPERTY(Matchings, AreExactOnTreesWithoutStates) {
     return tree;
   });
   const Matching found = TypeParam::match(weights.choices(), {.max_states = 0});
-  RC_ASSERT(found.exact == (std::is_same_v<TypeParam, Mixture<Fuzzy, Fuzzy>>));
+  RC_ASSERT(found.exact == (std::is_same_v<typename TypeParam::Pattern, Fuzzy>));
   require_same(found, TypeParam::match(weights.choices()), 1e-9);
 }
 

@@ -102,8 +102,6 @@ class EventChain {
       for (std::size_t c = 0; c < m; ++c) last[in_region + c] = std::max(last[c], last_of_region[region_[n + c]]);
       for (std::size_t row = 0; row < n; ++row) last[row_in_region + row] = last_of_region[region_[row]];
     }
-    std::vector<std::vector<std::size_t>> forgotten(n);
-    for (std::size_t bit = 0; bit < last.size(); ++bit) forgotten[last[bit]].push_back(bit);
 
     links_.clear();
     ways_.clear();
@@ -117,7 +115,8 @@ class EventChain {
       const auto entries = choices.entries(row);
       links_.push_back({ways_.size(), joints_.size(), 0});
       std::fill(kept.begin(), kept.end(), ~Word{0});
-      for (const std::size_t bit : forgotten[t]) kept[bit / 64] &= ~(Word{1} << bit % 64);
+      for (std::size_t bit = 0; bit < last.size(); ++bit)
+        if (last[bit] == t) kept[bit / 64] &= ~(Word{1} << bit % 64);
       if (keep_patterns) kept[across / 64] &= ~(Word{1} << across % 64);
       const auto forget = [&] { std::ranges::transform(key, kept, key.begin(), std::bit_and()); };
       joints.clear();

@@ -8,6 +8,7 @@
 
 #include <boost/pending/disjoint_sets.hpp>
 
+#include <sigmax/core/belief.hpp>
 #include <sigmax/core/logarithm.hpp>
 #include <sigmax/core/tie.hpp>
 
@@ -19,16 +20,15 @@ namespace {
 
 /// Throws std::invalid_argument for NaN and +∞.
 void check_weights(const Choices& log_weights) {
-  const auto check = [](std::size_t row, const std::string& column, double value) {
-    if (!(value < -log_zero))
+  for (std::size_t row = 0; row < log_weights.rows(); ++row) {
+    const auto entries = log_weights.entries(row);
+    for (std::size_t k = 0; k <= entries.size(); ++k) {
+      const double value = k < entries.size() ? entries.value(k) : log_weights.none(row);
+      if (value < -log_zero) continue;
+      const std::string column = k < entries.size() ? "column " + std::to_string(entries.index(k)) : "no column";
       throw std::invalid_argument("the log weight of row " + std::to_string(row) + " and " + column + " is " +
                                   std::to_string(value) + "; expected a finite number or -inf");
-  };
-  for (std::size_t row = 0; row < log_weights.rows(); ++row) {
-    check(row, "no column", log_weights.none(row));
-    const auto entries = log_weights.entries(row);
-    for (std::size_t k = 0; k < entries.size(); ++k)
-      check(row, "column " + std::to_string(entries.index(k)), entries.value(k));
+    }
   }
 }
 
@@ -105,8 +105,19 @@ class Matcher {
     }
   }
 
+  /// Of one row each choice is an event.
+  EventTotals of_one_row() const {
+    EventTotals result{0.0, {}};
+    for (const double cost : costs_.entries(0).values) result.log_marginals.push_back(paths_.cost(0) - cost);
+    result.log_marginals.push_back(paths_.cost(0) - costs_.none(0));
+    result.log_total = normalize_logs(result.log_marginals, pattern_);
+    return result;
+  }
+
   EventTotals totals() {
-    const bool differ = &pattern_ != &permutation_;
+    if (rows_.size() == 1) return of_one_row();
+    const bool is_tree = rows_.size() + columns_.size() == costs_.size() + 1;  // then each pattern has one event
+    const bool differ = &pattern_ != &permutation_ && !is_tree;
     if (is_maximum()) return maximize(costs_, paths_);
     if (differ && eliminates(true)) return eliminate(chain_, costs_, paths_, pattern_, permutation_);
     result_.exact = result_.exact && !differ;
