@@ -61,8 +61,8 @@ def filters(benchmark):
             imm.x, imm.P
 
     for what, action in ("step", steps), ("step, x and P", steps_with_output):
-        show(f"{what}: Python, C++ with output", seconds(action) / len(rows), of_cpp["ImmStep/vector"], 1)
-    followed = seconds(lambda: sx.track(times, z, R, filter="imm", models=models))
+        show(f"{what}: Python, C++ with output", seconds(action, 100) / len(rows), of_cpp["ImmStep/vector"], 1)
+    followed = seconds(lambda: sx.track(times, z, R, filter="imm", models=models), 100)
     show("track, a row: Python, C++", followed / len(rows), of_cpp["FollowRecording"], 1)
 
 

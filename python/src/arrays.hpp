@@ -43,6 +43,8 @@ inline std::vector<std::vector<double>> rows_of(const Array& array) {
   return rows;
 }
 
+inline constexpr double unknown_number = std::numeric_limits<double>::quiet_NaN();
+
 /// Anything that NumPy can make such an array of. Throws TypeError, or what NumPy throws, otherwise.
 inline Array as_array(const pybind11::object& object) {
   return pybind11::module_::import("numpy").attr("ascontiguousarray")(object, "float64").cast<Array>();
@@ -51,7 +53,7 @@ inline Array as_array(const pybind11::object& object) {
 /// Numbers of an array, with NaN where a masked array hides them.
 inline Array unmasked(const pybind11::object& numbers) {
   if (!pybind11::hasattr(numbers, "mask")) return Array(numbers);
-  return numbers.attr("astype")("float64").attr("filled")(std::numeric_limits<double>::quiet_NaN());
+  return numbers.attr("astype")("float64").attr("filled")(unknown_number);
 }
 
 /// The same in a tenth of the time of Array's caster where the object is such an array: for what is called in each
@@ -88,7 +90,7 @@ pybind11::array array_of(const std::vector<Number>& values) {
 template <class... Lengths>
 Array unknown(Lengths... lengths) {
   Array array({static_cast<pybind11::ssize_t>(lengths)...});
-  std::fill_n(array.mutable_data(), array.size(), std::numeric_limits<double>::quiet_NaN());
+  std::fill_n(array.mutable_data(), array.size(), unknown_number);
   return array;
 }
 

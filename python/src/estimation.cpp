@@ -158,10 +158,10 @@ Detections detections_of(const Array& times, const py::object& numbers, const Ar
     if (missing % m != 0)
       throw std::invalid_argument("z: row " + std::to_string(i) + " has " + std::to_string(missing) + " NaN of " +
                                   std::to_string(m) + "; expected none, or all if it was missed");
-    write_covariance(R, i, times.size(), m, detection.covariance.data());
+    if (i == 0 || R.ndim() == 3) write_covariance(R, i, times.size(), m, detection.covariance.data());
     std::copy_n(row, m, detection.z.begin());
     detection.time = times.data()[i];
-    result.push_back(missing == 0 ? detection : AnyDetection::missed(detection.time));
+    missing == 0 ? result.push_back(detection) : result.push_back(AnyDetection::missed(detection.time));
     result.back().tag = static_cast<std::size_t>(i);
   }
   return result;

@@ -2,7 +2,6 @@
 #include "tracking.hpp"
 
 #include <functional>
-#include <limits>
 #include <map>
 #include <type_traits>
 #include <utility>
@@ -103,21 +102,21 @@ py::tuple follow(const Settings& made, const Detections& detections, bool smooth
   const std::size_t rows = detections.size(), n = target.components().size();
   Array times = unknown(rows);
   std::ranges::transform(detections, times.mutable_data(), &AnyDetection::time);
-  const Array x = unknown(rows, n), P = unknown(rows, n, n), weights = unknown(rows, choice.models.size()),
-              nis = unknown(rows);
+  const Array x = unknown(rows, n), P({rows, n, n}), weights = unknown(rows, choice.models.size()), nis = unknown(rows);
   const auto write = [&](const TargetPoint& point) {  // needs no lock of Python
-    const double squared = point.nis.value_or(std::numeric_limits<double>::quiet_NaN());
     const auto put = [&](std::span<const double> row, const Array& series) {
       std::ranges::copy(row, const_cast<double*>(series.data()) + point.tag * row.size());
     };
     put(point.mean, x);
     put(point.covariance, P);
     put(point.weights, weights);
-    put({&squared, 1}, nis);
+    const_cast<double*>(nis.data())[point.tag] = point.nis.value_or(unknown_number);
   };
   unlocked([&] {
     target.follow(detections, write);
     if (smoothed) target.smoothed(write);
+    for (std::size_t row = 0; row < rows; ++row)  // filled last, since it is the most
+      if (std::isnan(*x.data(row))) std::fill_n(const_cast<double*>(P.data(row)), n * n, unknown_number);
   });
   return py::make_tuple(times, x, P, weights, nis, target.components());
 }
