@@ -121,7 +121,7 @@ def program(tmp_path, positions, at, *settings):
     path.write_text("\n".join(map(",".join, rows)) + "\n")
     arguments = [os.environ["SIGMAX_HIMM_DEMO"], "track", path, "--quiet", "--out", tmp_path / "out"]
     arguments += [part for each in settings for part in ("--set", each)]
-    subprocess.run(arguments, check=True, capture_output=True)
+    subprocess.run(arguments, check=True, capture_output=True, env={**os.environ, "LD_PRELOAD": ""})
     found = {}
     with open(tmp_path / "out" / "estimates.csv", newline="") as file:
         for row in csv.DictReader(file):
