@@ -15,9 +15,9 @@ void associate(const AssociateOptions& options) {
                      filter.name);
   if (options.filters.print_config) return fmt::print("{}", as_toml(filters));
   if (options.radar.sigma && (what.track_id.empty() || !options.scan_s))
-    throw UsageError(
-        "--radar needs --labels COLUMN, which tells targets apart, and --scan SECONDS, the time of a scan");
+    throw UsageError("--radar needs --labels COLUMN, which tells targets apart, and --scan SECONDS");
   if (options.clutter && !options.radar.sigma) throw UsageError("--clutter is of a simulated radar; give --radar");
+  if (options.runs) throw UsageError("--runs is for --simulate, which has a truth; of a file give --labels COLUMN");
   what.simulated = options.radar.sigma.has_value();
   what.mixed = true;
   RecordingReader recording(what);

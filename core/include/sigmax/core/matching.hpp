@@ -8,6 +8,7 @@
 
 namespace sigmax {
 
+/// What may be left out, or approximated.
 struct MatchingOptions {
   /// How many states a cluster of rows may need, all its rows together, before its marginals are approximated.
   std::size_t max_states = 100'000;
@@ -53,8 +54,8 @@ Matching match(const Choices& log_weights, const AnyAlgebra& pattern, const AnyA
 ///
 /// The result is exact: a forward–backward pass over the rows of each cluster of rows that share columns. A state is
 /// the set of used columns that later rows want. Where the kinds differ it keeps the pattern as well, within cycles of
-/// rows and columns. Fuzzy with fuzzy is exact at any size: the best event by successive
-/// shortest paths, max-marginals by shortest alternating paths.
+/// rows and columns; a cluster without cycles has one event for each pattern. Fuzzy with fuzzy is exact at any size:
+/// the best event by successive shortest paths, max-marginals by shortest alternating paths.
 ///
 /// A cluster that needs more than `max_states` is approximated, and `exact` is false. If the kinds differ, the ⊕ of the
 /// pattern eliminates permutations as well. If a sum still takes too many states, messages are passed (Williams and

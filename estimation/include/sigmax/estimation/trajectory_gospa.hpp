@@ -14,6 +14,7 @@ struct Trajectory {
   PointSet positions;
 };
 
+/// What errors cost, and how far the search goes.
 struct TrajectoryGospaSettings {
   double cutoff = 10.0;           ///< c in m, as in GospaSettings
   double order = 2.0;             ///< p ≥ 1
