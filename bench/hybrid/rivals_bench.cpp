@@ -10,42 +10,14 @@
 #include <sigmax/hybrid/interacting_multiple_model.hpp>
 #include <sigmax/hybrid/second_order_multiple_model.hpp>
 
+#include "hybrid/paper_step.hpp"
+
 namespace {
 
 using namespace sigmax;
+using namespace sigmax::bench;
 
-constexpr double T = 0.2;
-const std::tuple models{dwna<3>(3.0), dwpa<3>(3.0)};
-
-/// A target that turns now and then; what is measured is exact, which costs a filter nothing.
-std::vector<Gaussian<3>> measurements() {
-  std::vector<Gaussian<3>> all;
-  Vector<3> x(12e3, 8e3, 1e3), v(-100.0, -100.0, 0.0);
-  for (int k = 0; k < 1000; ++k) {
-    const double sign = k / 50 % 4 == 1 ? -1.0 : k / 50 % 4 == 3 ? 1.0 : 0.0;
-    const Vector<3> a = sign * Vector<3>(30.0, 50.0, 0.0);
-    x += T * v + 0.5 * T * T * a;
-    v += T * a;
-    all.push_back({x, 100.0 * SquareMatrix<3>::Identity()});
-  }
-  return all;
-}
-
-Gaussian<9> start() {
-  Gaussian<9> result{Vector<9>::Zero(), 100.0 * SquareMatrix<9>::Identity()};
-  result.mean.head<6>() << 12e3, 8e3, 1e3, -100.0, -100.0, 0.0;
-  return result;
-}
-
-template <Uncertainty Kind>
-const Variable<Kind> mode_of{"mode", {"dwna", "dwpa"}};
-
-/// The paper's transition for a mode of this kind.
-template <Uncertainty Kind>
-Relation<Kind, Kind> transition() {
-  const double stays = std::same_as<Kind, Fuzzy> ? 1.0 : 0.95, leaves = std::same_as<Kind, Fuzzy> ? 0.5 : 0.05;
-  return {mode_of<Kind>, mode_of<Kind>, {{stays, leaves}, {leaves, stays}}};
-}
+const std::tuple models{dwna<3>(sigma_w), dwpa<3>(sigma_w)};
 
 template <class Filter>
 void run(benchmark::State& state, Filter filter) {
@@ -90,7 +62,7 @@ BENCHMARK(SecondOrder<Fuzzy>)->Name("Step/Viterbi");
 
 template <Uncertainty Kind>
 void Static(benchmark::State& state) {
-  run(state, InteractingMultipleModel{models, identity(mode_of<Kind>), start()});
+  run(state, InteractingMultipleModel{models, identity(transition<Kind>().to()), start()});
 }
 BENCHMARK(Static<Random>)->Name("Step/static bank");
 

@@ -108,10 +108,8 @@ void FollowRecording(benchmark::State& state) {
   for (const auto& z : measurements())
     detections.push_back(AnyDetection::position(T * static_cast<double>(detections.size()), {z.mean.data(), 3},
                                                 {z.covariance.data(), 9}));
-  TargetChoice choice;
-  choice.models = {"dwna", "dwpa"};
-  choice.motions = {{"dwna"}, {"dwpa"}};
-  choice.transition = {{0.95, 0.05}, {0.05, 0.95}};
+  const TargetChoice choice{
+      .motions = {{"dwna"}, {"dwpa"}}, .models = {"dwna", "dwpa"}, .transition = {{0.95, 0.05}, {0.05, 0.95}}};
   for (auto _ : state)
     AnyTarget(choice).follow(detections, [](const TargetPoint& point) { benchmark::DoNotOptimize(point.mean.data()); });
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(detections.size()));
