@@ -21,7 +21,7 @@ smooth.plot((path, modes))
 path.lines[-1].set_label("smoothed")
 path.set(xlim=(430, 610), ylim=(330, 480))  # the turn at the top
 path.legend()
-figure.savefig(sys.argv[1] if len(sys.argv) > 1 else __file__.replace(".py", ".png"), dpi=80)
+figure.savefig(sys.argv[-1].replace(".py", ".png"), dpi=80)
 
 truth = data[["true_x_m", "true_y_m", "true_z_m"]].to_numpy()
 errors = [np.sqrt(np.nanmean(((x - truth) ** 2).sum(axis=1))) for x in (z, track.x[:, :3], smooth.x[:, :3])]

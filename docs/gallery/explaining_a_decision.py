@@ -19,7 +19,7 @@ plt.barh(["prior"] + names, [why.log_prior_ratio] + [each.log_ratio for each in 
 plt.gca().invert_yaxis()
 plt.axvline(0, color="black", linewidth=0.8)
 plt.xlabel(f"speaks for {why.rival} ← log ratio → speaks for {why.pattern}")
-plt.savefig(sys.argv[1] if len(sys.argv) > 1 else __file__.replace(".py", ".png"), dpi=80, bbox_inches="tight")
+plt.savefig(sys.argv[-1].replace(".py", ".png"), dpi=80, bbox_inches="tight")
 
 necessity = model.necessity(row).max()
 print(f"{why.pattern} rather than {why.rival}, necessary to {necessity:.2f}")

@@ -57,7 +57,7 @@ for name, weight in weights.items():
     modes.plot(np.arange(steps)[10:], weight[10:], color=colours[name])
 modes.set_ylabel("mean weight of acceleration")
 modes.set_xlabel("sample")
-figure.savefig(sys.argv[1] if len(sys.argv) > 1 else __file__.replace(".py", ".png"), dpi=80)
+figure.savefig(sys.argv[-1].replace(".py", ".png"), dpi=80)
 
 rms = {name: np.sqrt(square[10:].mean()) for name, square in squares.items()}
 print(", ".join(f"{name} {value:.1f} m" for name, value in rms.items()))

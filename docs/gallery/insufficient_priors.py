@@ -27,7 +27,7 @@ for kind, values in history.items():
 plt.xlabel("reports")
 plt.ylabel("belief in the jammer")
 plt.legend()
-plt.savefig(sys.argv[1] if len(sys.argv) > 1 else __file__.replace(".py", ".png"), dpi=80)
+plt.savefig(sys.argv[-1].replace(".py", ".png"), dpi=80)
 
 first = {kind: next(k for k, value in enumerate(values, 1) if value > 0.5) for kind, values in history.items()}
 print(f"jammer believed more than 0.5 from report {first['fuzzy']} (fuzzy) and {first['random']} (random)")

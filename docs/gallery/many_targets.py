@@ -27,7 +27,7 @@ for number, track in tracks.items():
 plt.xlabel("x in m")
 plt.ylabel("y in m")
 plt.legend()
-plt.savefig(sys.argv[1] if len(sys.argv) > 1 else __file__.replace(".py", ".png"), dpi=80)
+plt.savefig(sys.argv[-1].replace(".py", ".png"), dpi=80)
 
 owned = sum(np.isin(numbers, list(tracks)).sum() for numbers in owners)
 print(f"{len(tracks)} confirmed tracks own {owned} of {sum(map(len, scans))} detections")

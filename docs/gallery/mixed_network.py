@@ -20,7 +20,7 @@ for chart, evidence in zip(axes, [{}, {"speed": "fast"}, {"speed": "slow"}]):
     chart.bar(age.labels, answer.values)
     chart.set_title(", ".join(f"{name} = {value}" for name, value in evidence.items()) or "nothing seen")
 axes[0].set_ylabel("possibility of the age")
-figure.savefig(sys.argv[1] if len(sys.argv) > 1 else __file__.replace(".py", ".png"), dpi=80)
+figure.savefig(sys.argv[-1].replace(".py", ".png"), dpi=80)
 
 best, degree = sx.most_likely_explanation(network, evidence={"speed": "fast"})
 print(f"fast: most likely {best['age']} and {best['mood']}")

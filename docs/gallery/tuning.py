@@ -28,7 +28,7 @@ plt.yticks(range(len(names)), names)
 plt.xscale("log")
 plt.legend()
 plt.xlabel("value and standard error")
-plt.savefig(sys.argv[1] if len(sys.argv) > 1 else __file__.replace(".py", ".png"), dpi=80)
+plt.savefig(sys.argv[-1].replace(".py", ".png"), dpi=80)
 
 print(f"the sensor's standard deviations are to be multiplied by {tuned.noise:.1f}")
 print(f"minus log-score: {tuned.loss_before:.2f} before, {tuned.loss:.2f} after")

@@ -21,6 +21,6 @@ for shift, label, belief in (-0.2, "by his looks", looks), (0.2, "he goes out, t
 plt.xticks(places, group.labels)
 plt.ylim(0, 1.35)
 plt.legend(title="solid: necessity")
-plt.savefig(sys.argv[1] if len(sys.argv) > 1 else __file__.replace(".py", ".png"), dpi=80)
+plt.savefig(sys.argv[-1].replace(".py", ".png"), dpi=80)
 
 print(f"{sx.most_likely(after)}; middle-aged is possible to {after['middle-aged']:.2f}")

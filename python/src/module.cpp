@@ -12,7 +12,7 @@ PYBIND11_MODULE(_sigmax, module) {
                            std::to_string(PYBIND11_VERSION_MINOR) + ", which needs NumPy 1, but found NumPy " +
                            version + "; install 'numpy<2', or build sigmax with pybind11 2.12 or later");
   py::options options;
-  options.disable_function_signatures();  // the stubs have them
+  options.disable_function_signatures();  // they are in _sigmax.pyi
   module.doc() = "sigma-max inference: probability and possibility as one calculus";
   sigmax::python::bind_core(module);
   sigmax::python::bind_network(module);

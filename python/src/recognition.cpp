@@ -10,6 +10,7 @@
 #include <pybind11/stl.h>
 
 #include <sigmax/core/tie.hpp>
+#include <sigmax/recognition/counts.hpp>
 #include <sigmax/recognition/discretization.hpp>
 
 namespace sigmax::python {
@@ -32,21 +33,21 @@ Array count_rows(std::size_t classes, std::size_t readings, const Cuts& cuts, co
                  const Array& weights) {
   expect_shape(rows, "rows", labels.size(), cuts.size());
   expect_shape(weights, "weights", labels.size());
-  Array counts({cuts.size(), classes, readings});
-  std::fill_n(counts.mutable_data(), counts.size(), 0.0);
+  Counts counts{RandomVariable{"class", classes}, {cuts.size(), RandomVariable{"column", readings}}};
+  std::vector<std::size_t> row(cuts.size());
   const double* cell = rows.data();
-  for (py::ssize_t row = 0; row < labels.size(); ++row) {
-    const auto label = static_cast<std::size_t>(labels.data()[row]);
-    if (label >= classes) throw py::index_error("there is no class " + std::to_string(label));
-    double* of_column = counts.mutable_data() + label * readings;
-    for (std::size_t i = 0; i < cuts.size(); ++i, of_column += classes * readings)
-      of_column[reading(cuts[i], *cell++)] += weights.data()[row];
+  for (py::ssize_t k = 0; k < labels.size(); ++k) {
+    for (std::size_t i = 0; i < cuts.size(); ++i) row[i] = reading(cuts[i], *cell++);
+    counts.observe(static_cast<std::size_t>(labels.data()[k]), row, weights.data()[k]);
   }
-  return counts;
+  Array result({cuts.size(), classes, readings});
+  for (std::size_t i = 0; i < cuts.size(); ++i)
+    for (std::size_t c = 0; c < classes; ++c) std::ranges::copy(counts.of(i, c), result.mutable_data(i, c, 0));
+  return result;
 }
 
-/// Logarithms (N, classes) of belief less the greatest, by those of a prior (classes,) and of each reading, (columns,
-/// readings, classes); of a row that excludes all, those of the prior.
+/// Logarithms of belief, (N, classes), less the greatest of each row: the prior's, (classes,), and those of all its
+/// readings, (columns, readings, classes). A row that excludes all classes leaves the prior.
 Array log_degrees(const Array& prior, const Array& logs, const Cuts& cuts, const Array& rows) {
   const py::ssize_t classes = prior.size(), readings = logs.shape(1);
   expect_shape(rows, "rows", -1, cuts.size());
@@ -78,8 +79,7 @@ py::tuple bins_of(const Array& values, std::size_t bins) {
     const Discretization found = equal_frequency(row_of(values), bins);
     return py::make_tuple(std::vector<double>(found.cuts().begin(), found.cuts().end()), found.labels());
   }
-  if (!different.empty()) different.erase(different.begin());
-  const std::vector<double> cuts(different.begin(), different.end());
+  const std::vector<double> cuts(different.empty() ? different.end() : std::next(different.begin()), different.end());
   return py::make_tuple(cuts, Discretization(cuts).labels());
 }
 
